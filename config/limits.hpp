@@ -1,0 +1,51 @@
+// Every capacity of the product, once. Beyond one, input is refused by name; nothing grows.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace ivo::limits {
+
+// The planner's profile, chosen when the product is built (CMake option IVO_PLANNER_PROFILE).
+struct Micro {
+  static constexpr const char* kName = "micro";
+  static constexpr int kNodes = 256;
+  static constexpr int kAgents = 2;
+  static constexpr int kCells = 65'536;
+  static constexpr int kSightEvents = 2'500'000;
+};
+struct Onboard {
+  static constexpr const char* kName = "onboard";
+  static constexpr int kNodes = 4'096;
+  static constexpr int kAgents = 4;
+  static constexpr int kCells = 1'048'576;
+  static constexpr int kSightEvents = 32'000'000;
+};
+struct Desktop {
+  static constexpr const char* kName = "desktop";
+  static constexpr int kNodes = 16'384;
+  static constexpr int kAgents = 8;
+  static constexpr int kCells = 4'194'304;
+  static constexpr int kSightEvents = 256'000'000;
+};
+
+#ifndef IVO_PLANNER_PROFILE
+#define IVO_PLANNER_PROFILE Onboard
+#endif
+using Planner = IVO_PLANNER_PROFILE;
+
+inline constexpr int kNodes = Planner::kNodes;
+inline constexpr int kAgents = Planner::kAgents;
+inline constexpr int kCells = Planner::kCells;
+inline constexpr int kSightEvents = Planner::kSightEvents;  ///< cells first seen along an edge, all edges together
+inline constexpr int kEdges = kNodes * 56;     ///< directed edges: a 7x7 neighbourhood has 48, merged nodes more
+inline constexpr int kWaypoints = 2 * kNodes;  ///< of one agent's path: jumps may pass a node again
+
+inline constexpr int kPolygonVertices = 64;  ///< of one preferred or restricted area
+inline constexpr int kAreas = 16;            ///< preferred areas of one agent; restricted areas of one agent
+
+inline constexpr std::size_t kFramesPerCycle = 256;  ///< taken from the bus in one cycle: 2 ms at 1 Mbit/s is 42 frames
+
+static_assert(kCells <= 1 << 22 && kNodes <= 1 << 15);
+
+}  // namespace ivo::limits

@@ -1,0 +1,33 @@
+// Every period, budget and time-out of the product, once.
+#pragma once
+
+#include <chrono>
+
+#include "config/base/time.hpp"
+
+namespace ivo::rates {
+
+using std::chrono_literals::operator""ms;
+using std::chrono_literals::operator""us;
+using std::chrono_literals::operator""s;
+
+inline constexpr Duration kCycle = 2ms;                     // 500 Hz: the control loop and SYNC
+inline constexpr Duration kMasterHeartbeat = 50ms;          // our heartbeat on the bus (1017h of the master)
+inline constexpr Duration kMasterHeartbeatTimeout = 150ms;  // drives stop when ours is this late (1016h of each drive)
+inline constexpr Duration kDriveHeartbeat = 50ms;           // each drive's heartbeat (1017h of each drive)
+inline constexpr Duration kDriveHeartbeatTimeout = 150ms;   // a drive is lost when its heartbeat is this late
+inline constexpr Duration kFeedbackTimeout = 10ms;          // five SYNCs without the TPDO of a drive: it is lost
+inline constexpr Duration kBootTimeout = 5s;                // from reset to boot-up message
+inline constexpr Duration kSdoTimeout = 500ms;  // real drives answer in 6 to over 20 ms; shorter breaks start-up
+inline constexpr int kSdoAttempts = 3;
+inline constexpr Duration kStateChangeTimeout = 1s;  // one CiA 402 transition
+inline constexpr Duration kStandstillTimeout = 3s;   // from a stop to wheels at rest
+inline constexpr Duration kStandstillDwell = 50ms;   // a wheel rests when it has not moved for so long
+
+inline constexpr int kPlannerUnitsPerCycle =
+    100'000;  // planner work in one cycle, in work units (planner/search/planner.hpp)
+
+static_assert(kMasterHeartbeatTimeout >= 3 * kMasterHeartbeat, "two lost heartbeats are not a dead master");
+static_assert(kDriveHeartbeatTimeout >= 3 * kDriveHeartbeat, "two lost heartbeats are not a dead drive");
+
+}  // namespace ivo::rates

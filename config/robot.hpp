@@ -1,0 +1,58 @@
+// An IVO-class base: four omnidirectional wheels, each with a CiA 402 velocity drive. Everything about wheels and bus
+// is configuration (config/robots/*.toml), because IVO's own drives are not public.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+namespace ivo {
+
+inline constexpr int kWheels = 4;
+
+/// Order of every array of wheels in the product.
+enum class Wheel : std::uint8_t { kFrontLeft, kFrontRight, kRearLeft, kRearRight };
+
+enum class WheelGeometry : std::uint8_t {
+  kMecanum,  ///< rollers at 45 degrees, axles parallel
+  kOmniX,    ///< omni wheels at the corners, axles along the diagonals
+};
+
+struct BaseParameters {
+  WheelGeometry geometry = WheelGeometry::kMecanum;
+  double wheel_radius_m = 0.10;
+  double half_length_m = 0.20;  ///< lx: centre to axle, along x
+  double half_width_m = 0.20;   ///< ly: centre to wheel, along y
+  double max_wheel_radps = 15.0;
+};
+
+struct MotionLimits {
+  double max_speed_mps = 0.5;  ///< along the path (the paper's plan speed)
+  double max_turn_radps = 1.0;
+  double max_accel_mps2 = 0.5;  ///< speeding up and planned slowing down
+  double max_turn_accel_radps2 = 1.5;
+  double stop_decel_mps2 = 1.0;  ///< ramp of an unplanned stop
+};
+
+struct DriveParameters {
+  std::uint8_t node_id = 1;         ///< CANopen node-id, 1 to 127
+  int sign = 1;                     ///< +1 or -1: +1 when a positive target drives the robot towards +x
+  double gear_ratio = 1.0;          ///< motor turns for one wheel turn
+  double counts_per_turn = 4096.0;  ///< encoder counts for one motor turn (6064h)
+  double velocity_per_radps =
+      651.8986469044033;           ///< units of 60FFh for 1 rad/s at the motor; counts/s here: 4096 / (2 pi)
+  std::uint32_t vendor_id = 0;     ///< expected 1018h:1, 0 accepts any
+  std::uint32_t product_code = 0;  ///< expected 1018h:2, 0 accepts any
+};
+
+struct Robot {
+  std::string name;
+  double footprint_radius_m = 0.30;
+  BaseParameters base;
+  MotionLimits limits;
+  std::uint32_t bit_rate_bps = 1'000'000;
+  std::uint8_t master_node_id = 127;
+  std::array<DriveParameters, kWheels> drives;
+};
+
+}  // namespace ivo

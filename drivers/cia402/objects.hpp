@@ -1,0 +1,31 @@
+// The objects of the drive profile (CiA 402-2) that the product reads or writes.
+#pragma once
+
+#include "drivers/canopen/object_address.hpp"
+
+namespace ivo::drivers::object {
+
+inline constexpr ObjectAddress kAbortConnectionOption{0x6007, 0};
+inline constexpr ObjectAddress kErrorCode{0x603F, 0};
+inline constexpr ObjectAddress kControlword{0x6040, 0};
+inline constexpr ObjectAddress kStatusword{0x6041, 0};
+inline constexpr ObjectAddress kQuickStopOption{0x605A, 0};
+inline constexpr ObjectAddress kModeOfOperation{0x6060, 0};
+inline constexpr ObjectAddress kModeDisplay{0x6061, 0};
+inline constexpr ObjectAddress kPositionActual{0x6064, 0};
+inline constexpr ObjectAddress kVelocityActual{0x606C, 0};
+inline constexpr ObjectAddress kProfileAcceleration{0x6083, 0};
+inline constexpr ObjectAddress kProfileDeceleration{0x6084, 0};
+inline constexpr ObjectAddress kQuickStopDeceleration{0x6085, 0};
+inline constexpr ObjectAddress kTargetVelocity{0x60FF, 0};
+inline constexpr ObjectAddress kSupportedModes{0x6502, 0};
+
+}  // namespace ivo::drivers::object
+
+namespace ivo::drivers::cia402 {
+
+inline constexpr std::uint16_t kProfileNumber = 0x0192;    // low word of 1000h: 402
+inline constexpr std::uint8_t kQuickStopRampThenOff = 2;   // 605Ah: quick-stop ramp, then Switch On Disabled
+inline constexpr std::uint8_t kQuickStopOnLostMaster = 3;  // 6007h
+
+}  // namespace ivo::drivers::cia402

@@ -1,0 +1,48 @@
+// Why the drives are stopped: which drive, what happened, at which step, with which number.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "config/robot.hpp"
+
+namespace ivo::drivers {
+
+enum class DriveFaultReason : std::uint8_t {
+  kNone,
+  // At start-up; `step` names the step.
+  kSdoAborted,       ///< code: abort code
+  kSdoTimedOut,      ///< no answer to any attempt
+  kNoAnswer,         ///< neither a boot-up message nor an SDO answer
+  kUnexpectedValue,  ///< code: what was read
+  kNotOperational,   ///< no heartbeat said Operational in time; code: the last NMT state heard, 0 for none
+  // At any time.
+  kRebooted,         ///< a boot-up message that nobody asked for
+  kEmergency,        ///< code: error code of the EMCY
+  kLeftOperational,  ///< code: NMT state
+  kHeartbeatLost,
+  kFeedbackLost,          ///< no TPDO1 for rates::kFeedbackTimeout
+  kDriveInFault,          ///< code: statusword
+  kLeftOperationEnabled,  ///< unasked; code: statusword
+  kStateChangeTimedOut,   ///< a CiA 402 transition; code: statusword
+  kNotStill,              ///< wheels still moved rates::kStandstillTimeout after a stop
+  kFaultResetFailed,      ///< code: statusword
+};
+
+/// Plain data, made in the loop. No fault: reason kNone.
+struct DriveFault {
+  DriveFaultReason reason = DriveFaultReason::kNone;
+  std::uint8_t node_id = 0;
+  Wheel wheel = Wheel::kFrontLeft;
+  const char* step = "";  ///< static; of start-up, else empty
+  std::uint32_t code = 0;
+};
+
+/// True when only a new start-up of the drives can clear `reason`: what the drive was told may be forgotten.
+[[nodiscard]] bool needs_start_up(DriveFaultReason reason) noexcept;
+
+/// One line for a person, as: drive 3 (rear left) failed at "mode of operation 6061h": SDO abort 06090030h, value range
+/// exceeded. Outside of the loop only: it allocates.
+[[nodiscard]] std::string describe(const DriveFault& fault);
+
+}  // namespace ivo::drivers

@@ -1,0 +1,112 @@
+// The four wheel drives as one: up together, moving together, stopped together.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "config/base/static_vector.hpp"
+#include "config/base/time.hpp"
+#include "config/robot.hpp"
+#include "drivers/canopen/heartbeat.hpp"
+#include "drivers/drive_fault.hpp"
+#include "drivers/wheel_drive.hpp"
+#include "hal/api/can_bus.hpp"
+
+namespace ivo::drivers {
+
+enum class GroupState : std::uint8_t {
+  kBooting,   ///< also before open()
+  kReady,     ///< Operational on the bus, power off
+  kEnabling,  ///< power comes up, all four one transition at a time
+  kEnabled,   ///< targets go out
+  kStopping,  ///< target zero and quick stop, power off when still
+  kFault,     ///< latched: target zero and quick stop, power off when still; until reset_fault()
+};
+
+/// At the wheel: after gear and sign.
+struct WheelTargets {
+  std::array<double, kWheels> radps{};
+};
+
+struct GroupFeedback {
+  GroupState state = GroupState::kBooting;
+  std::array<double, kWheels> angle_rad{};  ///< at the wheel, unwrapped, 0 at the first feedback
+  std::array<double, kWheels> radps{};      ///< at the wheel, mean over the last 14 ms
+  bool fresh = false;                       ///< the TPDO1 of all four for the last SYNC are in
+  bool standstill = false;                  ///< fresh, and no wheel moved for rates::kStandstillDwell
+  DriveFault fault;                         ///< of kFault; the first one found
+};
+
+/// Each cycle, in this order: on_frame for every frame received, update, write. Nothing waits, allocates or throws.
+///
+/// Motion is earned: enable must have been false once since open(), stop() or a fault before true counts, and targets
+/// other than zero go out only while all four are Operation Enabled. Any drive's fault, emergency, reboot, silence or
+/// unasked change of state latches kFault for all four in the same update, and write then carries the stop.
+class DriveGroup {
+ public:
+  /// `bus` outlives this. Silent until open(), save for the heartbeat that write() sends.
+  DriveGroup(hal::CanBus& bus, const Robot& robot) noexcept;
+
+  /// Begins start-up of all four at once. From kBooting it goes to kReady, or to kFault with the step that failed.
+  void open(Instant now) noexcept;
+  /// Takes what concerns a drive, leaves the rest.
+  void on_frame(const hal::CanFrame& frame) noexcept;
+  /// Valid until the next call.
+  const GroupFeedback& update(Instant now) noexcept;
+  /// Sends at most kFramesPerWrite frames in one CanBus::send: our heartbeat and start-up, then SYNC, then four RPDO1,
+  /// which the drives act on at the next SYNC. Without `enable` no frame goes out that could move a wheel: moving
+  /// wheels get a quick stop, so a gentle stop is ramped down by the targets first; wheels at rest get shutdown.
+  void write(Instant now, bool enable, const WheelTargets& targets) noexcept;
+  /// Quick stop, power off when still: kStopping, then kReady. Idempotent; without effect in kBooting, kReady, kFault
+  /// save that enable must have been false before it counts again.
+  void stop(Instant now) noexcept;
+  /// In kFault: with the next update, resets the drives in fault, or starts all four up again where a drive must be
+  /// told everything anew. Ends in kReady, or in kFault.
+  void reset_fault() noexcept;
+
+  /// Answers that are on their way (boot-up, SDO, Operational), those to SYNC not counted: for lock-step time.
+  [[nodiscard]] int answers_awaited() const noexcept;
+  [[nodiscard]] bool awaiting_answer() const noexcept { return answers_awaited() > 0; }
+  /// Frames of a drive with a wrong length, not looked at.
+  [[nodiscard]] std::uint64_t malformed() const noexcept;
+
+  static constexpr std::size_t kFramesPerWrite = 1 + kWheels + 1 + kWheels;
+
+ private:
+  void collect() noexcept;
+  template <class Condition>
+  void latch_first(DriveFaultReason reason, const Condition& at_fault) noexcept;
+  void find_fault(Instant now) noexcept;
+
+  void update_booting(Instant now) noexcept;
+  void update_enabling(Instant now) noexcept;
+  void update_stopping(Instant now) noexcept;
+  void update_fault(Instant now) noexcept;
+  void update_resetting(Instant now) noexcept;
+
+  void follow(Instant now, bool enable) noexcept;
+  void begin_stop(Instant now) noexcept;
+  void enter(GroupState state, Instant now) noexcept;
+  [[nodiscard]] std::uint16_t controlword_for(const WheelDrive& drive, Instant now) const noexcept;
+  [[nodiscard]] std::uint16_t off_word() const noexcept;
+  [[nodiscard]] bool quick_stop_over(Instant now) const noexcept;
+  [[nodiscard]] bool all_off() const noexcept;
+
+  hal::CanBus& bus_;
+  std::array<WheelDrive, kWheels> drives_;
+  HeartbeatProducer heartbeat_{rates::kMasterHeartbeat};
+  std::uint8_t master_node_id_;
+  GroupFeedback feedback_;
+  GroupState state_ = GroupState::kBooting;
+  Instant since_{};                // when state_, or the present step of kEnabling or of a reset, was entered
+  Instant quick_stop_since_{};     // when the present quick stop began
+  cia402::PowerState step_{};      // of kEnabling: the state that all four are to reach next
+  bool synchronous_ = false;       // all four are Operational: SYNC and RPDO1 go out
+  bool enable_was_false_ = false;  // since open, stop or fault
+  bool voltage_off_ = true;        // kStopping ends and kReady rests with the voltage disabled, else by shutdown
+  bool reset_asked_ = false;
+  bool resetting_ = false;  // in kFault: the drives' fault reset is under way
+};
+
+}  // namespace ivo::drivers

@@ -1,0 +1,64 @@
+#include "drivers/sim/sim_drives.hpp"
+
+#include <algorithm>
+#include <span>
+
+#include "config/limits.hpp"
+#include "drivers/canopen/cob_id.hpp"
+
+namespace ivo::drivers {
+namespace {
+
+constexpr std::size_t kFramesPerRound = kWheels * 2 * SimDrive::kFramesPerCall;
+static_assert(kFramesPerRound <= SimDrive::Outbox::capacity());
+
+}  // namespace
+
+SimDrives::SimDrives(hal::CanBus& bus, const Robot& robot, TimeFrom time_from, const Scripts& scripts) noexcept
+    : bus_(bus),
+      time_from_(time_from),
+      drives_{SimDrive(robot.drives[0], scripts[0]), SimDrive(robot.drives[1], scripts[1]),
+              SimDrive(robot.drives[2], scripts[2]), SimDrive(robot.drives[3], scripts[3])} {}
+
+void SimDrives::open() noexcept {
+  for (SimDrive& drive : drives_) {
+    drive.open(out_);
+  }
+  flush();
+}
+
+void SimDrives::update(Instant now) noexcept {
+  if (time_from_ == TimeFrom::kClock) {
+    for (SimDrive& drive : drives_) {
+      drive.advance_to(now, out_);
+    }
+  }
+  std::array<hal::CanFrame, limits::kFramesPerCycle> frames;
+  const std::size_t count = bus_.receive(frames);
+  for (const hal::CanFrame& frame : std::span(frames).first(count)) {
+    if (SimDrive::Outbox::capacity() - out_.size() < kFramesPerRound) {
+      flush();
+    }
+    handle(frame);
+  }
+  flush();
+}
+
+void SimDrives::handle(const hal::CanFrame& frame) noexcept {
+  const bool tick = time_from_ == TimeFrom::kSync && frame.id == cob_id::kSync;
+  for (SimDrive& drive : drives_) {
+    if (tick) {
+      drive.advance_to(drive.now() + drive.sync_period(), out_);
+    }
+    drive.on_frame(frame, out_);
+  }
+}
+
+void SimDrives::flush() noexcept {
+  if (!out_.empty()) {
+    bus_.send(out_.span());
+    out_.clear();
+  }
+}
+
+}  // namespace ivo::drivers

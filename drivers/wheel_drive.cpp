@@ -1,0 +1,124 @@
+#include "drivers/wheel_drive.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "drivers/canopen/cob_id.hpp"
+
+namespace ivo::drivers {
+namespace {
+
+template <class T>
+bool keep(std::optional<T>& slot, const std::optional<T>& parsed) noexcept {
+  if (parsed.has_value()) {
+    slot = parsed;
+  }
+  return parsed.has_value();
+}
+
+}  // namespace
+
+WheelDrive::WheelDrive(const DriveParameters& drive, Wheel wheel, std::uint8_t master_node_id) noexcept
+    : parameters_(drive), wheel_(wheel), startup_(drive, wheel, master_node_id), encoder_(drive) {}
+
+void WheelDrive::open() noexcept {
+  startup_.open();
+  encoder_.rebase();
+  heartbeat_.forget();
+  heard_ = {};
+  status_ = {};
+  fresh_ = false;
+  sync_.reset();
+  last_feedback_.reset();
+  fault_ = {};
+}
+
+void WheelDrive::expect_feedback(Instant now) noexcept {
+  sync_ = now;
+  last_feedback_ = last_feedback_.value_or(now);
+  fresh_ = false;
+}
+
+void WheelDrive::clear_fault() noexcept { fault_ = {}; }
+
+void WheelDrive::latch(DriveFaultReason reason, std::uint32_t code) noexcept {
+  if (fault_.reason == DriveFaultReason::kNone) {
+    fault_ = {.reason = reason, .node_id = node_id(), .wheel = wheel_, .step = "", .code = code};
+  }
+}
+
+void WheelDrive::on_frame(const hal::CanFrame& frame) noexcept {
+  const std::uint8_t node = node_id();
+  if (frame.id == cob_id::tpdo1(node)) {
+    malformed_ += keep(heard_.feedback, parse_tpdo1(frame)) ? 0 : 1;
+  } else if (frame.id == cob_id::heartbeat(node)) {
+    hear_heartbeat(frame);
+  } else if (frame.id == cob_id::sdo_answer(node)) {
+    startup_.on_sdo(frame);
+  } else if (frame.id == cob_id::emcy(node)) {
+    const std::optional<Emergency> emergency = parse_emergency(frame);
+    if (!emergency.has_value()) {
+      ++malformed_;
+    } else if (emergency->code != 0 && !heard_.emergency.has_value()) {
+      heard_.emergency = emergency;
+    }
+  }
+}
+
+void WheelDrive::hear_heartbeat(const hal::CanFrame& frame) noexcept {
+  const std::optional<NmtState> state = parse_heartbeat(frame);
+  if (!state.has_value()) {
+    ++malformed_;
+  } else if (*state == NmtState::kBootUp) {
+    heard_.boot_up = true;
+    startup_.on_boot_up();
+  } else {
+    heard_.heartbeat = state;
+    startup_.on_heartbeat(*state);
+  }
+}
+
+void WheelDrive::update(Instant now) noexcept {
+  startup_.update(now);
+  if (startup_.phase() == Phase::kFailed && fault_.reason == DriveFaultReason::kNone) {
+    fault_ = startup_.fault();
+  }
+  if (heard_.feedback.has_value() && sync_.has_value()) {
+    status_ = *heard_.feedback;
+    encoder_.sample(status_.position, *sync_);
+    fresh_ = true;
+    last_feedback_ = now;
+  }
+  if (startup_.phase() == Phase::kOperational) {
+    watch(now);
+  }
+  heard_ = {};
+}
+
+void WheelDrive::watch(Instant now) noexcept {
+  if (heard_.heartbeat.has_value()) {
+    heartbeat_.heard(now);
+  }
+  if (heard_.boot_up) {
+    latch(DriveFaultReason::kRebooted, 0);
+  } else if (heard_.emergency.has_value()) {
+    latch(DriveFaultReason::kEmergency, heard_.emergency->code);
+  } else if (heard_.heartbeat.value_or(NmtState::kOperational) != NmtState::kOperational) {
+    latch(DriveFaultReason::kLeftOperational, static_cast<std::uint32_t>(*heard_.heartbeat));
+  } else if (heartbeat_.lost(now)) {
+    latch(DriveFaultReason::kHeartbeatLost, 0);
+  } else if (last_feedback_.has_value() && now - *last_feedback_ > rates::kFeedbackTimeout) {
+    latch(DriveFaultReason::kFeedbackLost, 0);
+  }
+}
+
+hal::CanFrame WheelDrive::command_frame(std::uint16_t controlword, double radps) const noexcept {
+  constexpr double kLowest = std::numeric_limits<std::int32_t>::min();
+  constexpr double kHighest = std::numeric_limits<std::int32_t>::max();
+  const double units = radps * parameters_.sign * parameters_.gear_ratio * parameters_.velocity_per_radps;
+  const double target = std::isnan(units) ? 0.0 : std::clamp(std::round(units), kLowest, kHighest);
+  return rpdo1_frame(node_id(), {controlword, static_cast<std::int32_t>(target)});
+}
+
+}  // namespace ivo::drivers

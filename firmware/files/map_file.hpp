@@ -1,0 +1,31 @@
+// A segmented map: a PNG of class colours, its resolution and its class table, from two small TOML files.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "config/base/result.hpp"
+#include "config/semantic_class.hpp"
+#include "planner/world/segmented_map.hpp"
+
+namespace ivo::firmware {
+
+struct MapFile {
+  std::string path;
+  std::string image_path;
+  int width_px = 0;
+  int height_px = 0;
+  double resolution_m = 0.0;
+  ClassTable classes{};
+  std::vector<SemanticClass> pixels;  ///< row by row, the bottom row first
+
+  /// Valid while this object lives and stays unchanged.
+  [[nodiscard]] planner::SegmentedMap view() const;
+};
+
+/// Keys: image, resolution_m, optional classes (a class table; the built-in one without it). Paths in the file are
+/// relative to it. Refuses a pixel whose colour is no class of the table, saying where, which, and what is nearest.
+/// Whether the map fits the planner's limits is for the planner to say.
+[[nodiscard]] Result<MapFile> read_map(const std::string& toml_path);
+
+}  // namespace ivo::firmware

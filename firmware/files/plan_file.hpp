@@ -1,0 +1,56 @@
+// plan.json: a plan and what the team can expect of it, for other programs and for a later run.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "config/base/geometry.hpp"
+#include "config/base/result.hpp"
+#include "config/semantic_class.hpp"
+
+namespace ivo::firmware {
+
+/// As planner::PlanScore defines them.
+struct ScoreDocument {
+  double expected_time_s = 0.0;
+  double expected_time_continuous_s = 0.0;
+  double expected_sub_prior_time_s = 0.0;
+  double unseen_mass = 1.0;
+  double horizon_s = 0.0;
+  bool complete = false;
+};
+
+struct PlannedAgent {
+  std::string name;
+  AgentKind kind = AgentKind::kRobot;
+  double speed_mps = 0.0;
+  double sight_radius_m = 0.0;
+  double length_m = 0.0;
+  double duration_s = 0.0;
+  std::vector<Point> waypoints;  ///< the first is the start
+};
+
+struct PlanDocument {
+  std::string mission;
+  std::string map_path;  ///< as given
+  std::uint64_t seed = 0;
+  std::string profile;  ///< limits::Planner::kName
+  double cell_m = 0.0;
+  double spacing_m = 0.0;
+  int nodes = 0;
+  int generations_done = 0;
+  double unobservable_share = 0.0;  ///< of the prior's mass; enters no score
+  ScoreDocument score;
+  std::vector<PlannedAgent> agents;
+};
+
+/// Same document, same bytes: fixed order, numbers that read back as the same, no dates, no machine names. Numbers must
+/// be finite. Ends with a line break.
+[[nodiscard]] std::string plan_json(const PlanDocument& plan);
+
+/// What plan_json wrote, checked: every field present, of its type and in range, waypoints finite, at least one agent.
+/// Refuses with "PATH: FIELD: what was wrong; what is expected".
+[[nodiscard]] Result<PlanDocument> read_plan(const std::string& path);
+
+}  // namespace ivo::firmware

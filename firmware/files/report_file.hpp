@@ -1,0 +1,45 @@
+// report.json: how a search went.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "config/base/geometry.hpp"
+#include "config/semantic_class.hpp"
+#include "firmware/files/plan_file.hpp"
+
+namespace ivo::firmware {
+
+enum class RunEnd : std::uint8_t { kFound, kPathsEnded, kStopped, kFault, kNoConsent };
+
+struct ReportedAgent {
+  std::string name;
+  AgentKind kind = AgentKind::kRobot;
+  double planned_length_m = 0.0;
+  double distance_m = 0.0;  ///< driven or walked
+  double mean_speed_mps = 0.0;
+  Point final_position;
+};
+
+struct ReportDocument {
+  std::string mission;
+  std::uint64_t seed = 0;
+  RunEnd end = RunEnd::kStopped;
+  std::string reason;                 ///< one line
+  std::optional<std::string> finder;  ///< name of the agent
+  std::optional<Point> object;
+  ScoreDocument score;  ///< of the plan
+  double real_search_time_s = 0.0;
+  std::vector<ReportedAgent> agents;
+  std::uint64_t cycles = 0;
+  std::uint64_t frames_sent = 0;
+  std::uint64_t frames_received = 0;
+  std::string drive_fault;  ///< empty without one
+};
+
+/// Same document, same bytes, as plan_json. `end` as "found", "paths_ended", "stopped", "fault" or "no_consent".
+[[nodiscard]] std::string report_json(const ReportDocument& report);
+
+}  // namespace ivo::firmware

@@ -1,0 +1,116 @@
+#include "firmware/files/robot_file.hpp"
+
+#include <cstddef>
+#include <filesystem>
+#include <limits>
+#include <string_view>
+
+#include "firmware/files/number_text.hpp"
+#include "firmware/files/toml_table.hpp"
+
+namespace ivo::firmware {
+namespace {
+
+/// By Wheel.
+constexpr std::array<std::string_view, kWheels> kWheelKeys = {"front_left", "front_right", "rear_left", "rear_right"};
+
+BaseParameters read_base(const TomlValue& table) {
+  BaseParameters base;
+  base.geometry = static_cast<WheelGeometry>(table.required("geometry").choice({"mecanum", "omni_x"}));
+  base.wheel_radius_m = table.required("wheel_radius_m").number({0.01, 1.0, "metres"});
+  base.half_length_m = table.required("half_length_m").number({0.05, 2.0, "metres"});
+  base.half_width_m = table.required("half_width_m").number({0.05, 2.0, "metres"});
+  base.max_wheel_radps = table.required("max_wheel_radps").number({0.1, 1000.0, "radians a second"});
+  return base;
+}
+
+MotionLimits read_limits(const TomlValue& table) {
+  MotionLimits limits;
+  limits.max_speed_mps = table.required("max_speed_mps").number({0.05, 3.0, "metres a second"});
+  limits.max_turn_radps = table.required("max_turn_radps").number({0.05, 10.0, "radians a second"});
+  limits.max_accel_mps2 = table.required("max_accel_mps2").number({0.05, 10.0, "metres a second squared"});
+  limits.max_turn_accel_radps2 =
+      table.required("max_turn_accel_radps2").number({0.05, 50.0, "radians a second squared"});
+  const TomlValue stop = table.required("stop_decel_mps2");
+  limits.stop_decel_mps2 = stop.number({0.05, 20.0, "metres a second squared"});
+  if (stop.present() && limits.stop_decel_mps2 < limits.max_accel_mps2) {
+    stop.complain(shortest(limits.stop_decel_mps2) + " is gentler than ordinary braking; expected at least max_accel_mps2, " +
+                  shortest(limits.max_accel_mps2));
+  }
+  return limits;
+}
+
+/// At lower rates SYNC and the eight PDOs of four drives do not fit in a cycle of 2 ms.
+std::uint32_t read_bit_rate(const TomlValue& value) {
+  const std::int64_t rate = value.integer(500'000, 1'000'000);
+  if (value.present() && rate != 0 && rate != 500'000 && rate != 800'000 && rate != 1'000'000) {
+    value.complain(std::to_string(rate) + " is no CANopen bit rate; expected 500000, 800000 or 1000000");
+  }
+  return static_cast<std::uint32_t>(rate);
+}
+
+DriveParameters read_drive(const TomlValue& table) {
+  DriveParameters drive;
+  drive.node_id = static_cast<std::uint8_t>(table.required("node_id").integer(1, 126));
+  const TomlValue sign = table.required("sign");
+  drive.sign = static_cast<int>(sign.integer(-1, 1, 1));
+  if (drive.sign == 0) {
+    sign.complain("0 is no direction; expected 1 or -1");
+  }
+  drive.gear_ratio = table.required("gear_ratio").number({0.01, 1000.0, "motor turns for one wheel turn"});
+  drive.counts_per_turn = table.required("counts_per_turn").number({1.0, 1e8, "counts for one motor turn"});
+  drive.velocity_per_radps = table.required("velocity_per_radps").number({1e-3, 1e9, "units of 60FFh for 1 rad/s"});
+  constexpr std::int64_t kMost = std::numeric_limits<std::uint32_t>::max();
+  drive.vendor_id = static_cast<std::uint32_t>(table.optional("vendor_id").integer(0, kMost));
+  drive.product_code = static_cast<std::uint32_t>(table.optional("product_code").integer(0, kMost));
+  return drive;
+}
+
+void refuse_shared_node_ids(const TomlValue& drives, const Robot& robot) {
+  for (std::size_t i = 0; i < kWheelKeys.size(); ++i) {
+    const TomlValue node_id = drives.optional(kWheelKeys[i]).optional("node_id");
+    if (!node_id.present() || robot.drives[i].node_id == 0) {
+      continue;
+    }
+    const std::string id = std::to_string(robot.drives[i].node_id);
+    if (robot.drives[i].node_id == robot.master_node_id) {
+      node_id.complain(id + " is the master's (bus.master_node_id); expected a node-id of its own");
+    }
+    for (std::size_t earlier = 0; earlier < i; ++earlier) {
+      if (robot.drives[i].node_id == robot.drives[earlier].node_id) {
+        node_id.complain(id + " is already drive." + std::string(kWheelKeys[earlier]) +
+                         "'s; expected a node-id of its own");
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Result<Robot> read_robot(const std::string& path) {
+  const Result<TomlFile> toml = TomlFile::read(path);
+  if (!toml) {
+    return toml.error();
+  }
+  const TomlValue root = toml.value().root();
+  Robot robot;
+  robot.name = root.optional("name").text(std::filesystem::path(path).stem().string());
+  robot.footprint_radius_m = root.required("footprint_radius_m").number({0.05, 2.0, "metres"});
+  robot.base = read_base(root.required("base"));
+  robot.limits = read_limits(root.required("limits"));
+  const TomlValue bus = root.required("bus");
+  robot.bit_rate_bps = read_bit_rate(bus.required("bit_rate_bps"));
+  robot.master_node_id = static_cast<std::uint8_t>(bus.required("master_node_id").integer(1, 127));
+  const TomlValue drives = root.required("drive");
+  for (std::size_t i = 0; i < kWheelKeys.size(); ++i) {
+    robot.drives[i] = read_drive(drives.required(kWheelKeys[i]));
+  }
+  refuse_shared_node_ids(drives, robot);
+  const Result<void> finish = toml.value().finish();
+  if (!finish) {
+    return finish.error();
+  }
+  return robot;
+}
+
+}  // namespace ivo::firmware

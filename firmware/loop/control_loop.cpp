@@ -1,0 +1,257 @@
+#include "firmware/loop/control_loop.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "config/rates.hpp"
+
+namespace ivo::firmware {
+namespace {
+
+using std::chrono_literals::operator""ms;
+
+constexpr Duration kPositionEvery = 200ms;  // in the event log
+// After this long in an end mode nobody waits for the drives any more: they stop by our missing heartbeat.
+constexpr Duration kGiveUp = rates::kStandstillTimeout + rates::kStateChangeTimeout;
+
+// The plan is made for a speed; the robot may not go faster than it, nor than its own limit.
+MotionLimits planned_limits(const LoopSetup& setup) noexcept {
+  MotionLimits limits = setup.robot.limits;
+  limits.max_speed_mps = std::min(limits.max_speed_mps, setup.searchers[0].speed_mps);
+  return limits;
+}
+
+}  // namespace
+
+ControlLoop::ControlLoop(const LoopSetup& setup, planner::Planner& planner, hal::CanBus& bus) noexcept
+    : planner_(planner),
+      bus_(bus, setup.robot),
+      drives_(bus_, setup.robot),
+      kinematics_(setup.robot.base),
+      odometry_(kinematics_),
+      limiter_(planned_limits(setup)),
+      follower_(planned_limits(setup)),
+      gate_(setup.robot.limits, rates::kFeedbackTimeout),
+      search_(planner.cells(), setup.searchers),
+      object_(setup.object),
+      start_(setup.start) {
+  odometry_.reset(start_);
+}
+
+void ControlLoop::open(Instant now) noexcept {
+  now_ = now;
+  drives_.open(now);
+}
+
+void ControlLoop::cycle(Instant now, std::int64_t skipped) noexcept {
+  dt_ = now - now_;
+  now_ = now;
+  if (skipped > 0) {
+    counters_.skipped += static_cast<std::uint64_t>(skipped);
+    record(EventKind::kOverrun, 0, static_cast<std::int32_t>(skipped));
+  }
+  take_commands();
+  drain_bus();
+  look_at_drives();
+  look_for_object();
+  decide_mode();
+  write(pass_gate(clamp(choose_velocity())));
+  think();
+  publish();
+}
+
+void ControlLoop::take_commands() noexcept {
+  consent_ = false;
+  for (OperatorCommand command{}; commands_.pop(command);) {
+    if (command == OperatorCommand::kConsent) {
+      consent_ = true;
+    } else if (stop_cause_ == StopCause::kNone) {
+      stop_cause_ = command == OperatorCommand::kStop ? StopCause::kAsked : StopCause::kNoConsent;
+      record(EventKind::kStopAsked, 0, static_cast<std::int32_t>(stop_cause_));
+    }
+  }
+}
+
+void ControlLoop::drain_bus() noexcept {
+  const std::size_t received = bus_.receive(frames_);
+  for (std::size_t i = 0; i < received; ++i) {
+    drives_.on_frame(frames_[i]);
+  }
+}
+
+void ControlLoop::look_at_drives() noexcept {
+  const bool faulty_before = wheels_.state == drivers::GroupState::kFault;
+  wheels_ = drives_.update(now_);
+  if (wheels_.fresh) {
+    feedback_at_ = now_;
+    odometry_.update(wheels_.angle_rad);
+  }
+  if (wheels_.state == drivers::GroupState::kFault && !faulty_before) {
+    record(EventKind::kDriveFault, static_cast<std::uint8_t>(wheels_.fault.wheel),
+           static_cast<std::int32_t>(wheels_.fault.reason));
+  }
+}
+
+void ControlLoop::look_for_object() noexcept {
+  if (mode_ != Mode::kSearching || !search_started_) {
+    return;
+  }
+  search_.update(now_, odometry_.pose().point(), following_.reached);
+  if (search_.state() == SearchState::kFound) {
+    record(EventKind::kFound, static_cast<std::uint8_t>(*search_.finder()), 0, *object_.place());
+  } else if (search_.state() == SearchState::kPathsEnded) {
+    record(EventKind::kPathsEnded);
+  }
+  if (now_ >= next_position_) {
+    next_position_ = now_ + kPositionEvery;
+    for (int agent = 0; agent < search_.agents(); ++agent) {
+      record(EventKind::kPosition, static_cast<std::uint8_t>(agent), 0, search_.track(agent).position);
+    }
+  }
+}
+
+void ControlLoop::decide_mode() noexcept {
+  using drivers::GroupState;
+  const bool enabled = wheels_.state == GroupState::kEnabled;
+  const Mode before = mode_;
+  mode_ = mode_machine_.update(
+      {
+          .plan_ready = plan_ready_,
+          .consent_given = consent_,
+          .stop_asked = stop_cause_ != StopCause::kNone,
+          .search_ended = search_.state() != SearchState::kRunning,
+          .drives_ready = enabled || wheels_.state == GroupState::kReady || wheels_.state == GroupState::kEnabling,
+          .drives_enabled = enabled,
+          .drives_standstill = wheels_.standstill,
+          .drives_fault = wheels_.state == GroupState::kFault || bus_.state() >= hal::BusState::kOff,
+      },
+      now_);
+  if (mode_ != before) {
+    enter(mode_);
+  }
+  if (mode_ == Mode::kSearching && enabled && !search_started_) {
+    begin_search();
+  }
+}
+
+void ControlLoop::enter(Mode mode) noexcept {
+  record(EventKind::kMode, 0, static_cast<std::int32_t>(mode));
+  if (mode == Mode::kSearching) {
+    record(EventKind::kConsent);
+  }
+  if (mode == Mode::kDone || mode == Mode::kFault) {
+    ended_ = now_;
+    drives_.stop(now_);
+  }
+}
+
+// Everybody sets off together: when the last drive holds speed.
+void ControlLoop::begin_search() noexcept {
+  search_started_ = true;
+  odometry_.reset(start_);
+  limiter_.reset();
+  (void)follower_.start(plan_.paths[0].waypoints.span(), start_);
+  search_.start(now_, plan_, object_);
+  next_position_ = now_;
+  record(EventKind::kSearchStarted);
+}
+
+Twist ControlLoop::choose_velocity() noexcept {
+  if (mode_ != Mode::kSearching || !search_started_) {
+    return {};
+  }
+  following_ = follower_.update({.pose = odometry_.pose(), .moving = moving_, .dt = dt_});
+  return following_.command;
+}
+
+Twist ControlLoop::clamp(const Twist& wanted) noexcept {
+  if (!permissions(mode_).may_move) {
+    limiter_.reset();
+    return {};
+  }
+  if (mode_ == Mode::kStopping) {
+    return limiter_.ramp_down(dt_);
+  }
+  const double scale = kinematics_.saturation(kinematics_.wheel_speeds(wanted));
+  return limiter_.limit({wanted.vx_mps * scale, wanted.vy_mps * scale, wanted.wz_radps * scale}, dt_);
+}
+
+Twist ControlLoop::pass_gate(const Twist& limited) noexcept {
+  const CommandGate::Verdict verdict = gate_.judge({.may_move = permissions(mode_).may_move,
+                                                    .drives_enabled = wheels_.state == drivers::GroupState::kEnabled,
+                                                    .feedback_age = now_ - feedback_at_,
+                                                    .pose = odometry_.pose(),
+                                                    .command = limited});
+  if (verdict.refusal != Refusal::kNone) {
+    limiter_.reset();  // what did not go out was not driven
+  }
+  return verdict.command;
+}
+
+void ControlLoop::write(const Twist& passed) noexcept {
+  const bool enable = permissions(mode_).enable_drives;
+  bus_.permit_motion(enable);
+  drives_.write(now_, enable, {kinematics_.wheel_speeds(passed)});
+  moving_ = passed;
+}
+
+// Last, in what is left of the cycle: SYNC and targets never wait for a thought.
+void ControlLoop::think() noexcept {
+  if (!permissions(mode_).think || plan_ready_) {
+    return;
+  }
+  const planner::Progress before = planner_.progress();
+  const planner::Progress progress = planner_.step({rates::kPlannerUnitsPerCycle});
+  if (progress.has_plan && (!before.has_plan || progress.best.expected_time_s != before.best.expected_time_s)) {
+    record(EventKind::kPlanImproved, 0, progress.generation,
+           {progress.best.expected_time_s, progress.best.unseen_mass});
+  }
+  if (progress.done) {
+    planner_.best_plan(plan_);
+    shown_plan_.write(plan_);
+    plan_ready_ = true;
+    record(EventKind::kPlanReady, 0, progress.generation);
+  }
+}
+
+void ControlLoop::publish() noexcept {
+  const bool ended = mode_ == Mode::kDone || mode_ == Mode::kFault;
+  const bool resting = wheels_.state == drivers::GroupState::kReady || wheels_.state == drivers::GroupState::kBooting ||
+                       (wheels_.state == drivers::GroupState::kFault && (wheels_.standstill || !search_started_));
+  finished_ = ended && (resting || now_ - ended_ > kGiveUp);
+
+  ++counters_.cycles;
+  counters_.bus = bus_.counters();
+  counters_.bus_state = bus_.state();
+  counters_.refused_frames = bus_.refused();
+  counters_.refused_commands = 0;
+  for (int reason = 1; reason < kRefusals; ++reason) {
+    counters_.refused_commands += gate_.refused(static_cast<Refusal>(reason));
+  }
+
+  LoopStatus status;
+  status.at = now_;
+  status.mode = mode_;
+  status.plan_ready = plan_ready_;
+  status.finished = finished_;
+  status.planning = planner_.progress();
+  status.robot = odometry_.pose();
+  for (int agent = 0; agent < search_.agents(); ++agent) {
+    status.tracks[static_cast<std::size_t>(agent)] = search_.track(agent);
+  }
+  status.search = search_.state();
+  status.search_started = search_started_;
+  status.finder = search_.finder();
+  status.search_time = search_.elapsed();
+  status.stop_cause = stop_cause_;
+  status.drives = wheels_.state;
+  status.drive_fault = wheels_.fault;
+  status.counters = counters_;
+  status_.write(status);
+}
+
+void ControlLoop::record(EventKind kind, std::uint8_t agent, std::int32_t code, Point place) noexcept {
+  (void)events_.push({now_, kind, agent, code, place.x_m, place.y_m});  // a loss is counted by the ring
+}
+
+}  // namespace ivo::firmware

@@ -1,0 +1,50 @@
+// What the loop shows to the rest of the program: the newest state, whole, once a cycle.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "config/base/time.hpp"
+#include "drivers/drive_group.hpp"
+#include "firmware/mission/search_run.hpp"
+#include "firmware/safety/mode.hpp"
+#include "hal/api/can_bus.hpp"
+#include "planner/search/planner.hpp"
+
+namespace ivo::firmware {
+
+/// Why nobody goes on searching, when it was not the search that ended.
+enum class StopCause : std::uint8_t { kNone, kAsked, kNoConsent };
+
+struct LoopCounters {
+  std::uint64_t cycles = 0;
+  std::uint64_t skipped = 0;           ///< periods without a cycle
+  std::uint64_t refused_commands = 0;  ///< by the command gate
+  std::uint64_t refused_frames = 0;    ///< by the guarded bus
+  hal::BusCounters bus;
+  hal::BusState bus_state = hal::BusState::kActive;
+};
+
+struct LoopStatus {
+  Instant at{};
+  Mode mode = Mode::kPlanning;
+  bool plan_ready = false;
+  bool finished = false;  ///< drives off or given up: no cycle is needed any more
+  planner::Progress planning;
+  Pose robot;
+  std::array<AgentTrack, limits::kAgents> tracks{};
+  SearchState search = SearchState::kRunning;
+  bool search_started = false;
+  std::optional<int> finder;
+  Duration search_time{};
+  StopCause stop_cause = StopCause::kNone;
+  drivers::GroupState drives = drivers::GroupState::kBooting;
+  drivers::DriveFault drive_fault;
+  LoopCounters counters;
+};
+
+/// What the rest of the program may ask of the loop.
+enum class OperatorCommand : std::uint8_t { kConsent, kStop, kNoConsent };
+
+}  // namespace ivo::firmware

@@ -1,0 +1,69 @@
+// The search itself: where everybody is, how far they have come, and whether it is over (paper, "Real-life
+// Experiments").
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "config/base/time.hpp"
+#include "config/mission.hpp"
+#include "firmware/mission/search_object.hpp"
+#include "firmware/mission/simulated_person.hpp"
+#include "planner/search/plan.hpp"
+
+namespace ivo::firmware {
+
+enum class SearchState : std::uint8_t { kRunning, kFound, kPathsEnded };
+
+/// What the run needs to know of an agent, without strings: part of the loop.
+struct Searcher {
+  AgentKind kind = AgentKind::kRobot;
+  PersonMotion motion = PersonMotion::kSimulated;
+  Point start;
+  double speed_mps = 0.5;
+  double sight_radius_m = 2.5;
+};
+using Searchers = StaticVector<Searcher, limits::kAgents>;
+
+struct AgentTrack {
+  Point position;
+  double moved_m = 0.0;  ///< since the search started
+  bool path_ended = false;
+};
+
+class SearchRun {
+ public:
+  SearchRun(const planner::Cells& cells, const Searchers& searchers) noexcept;
+
+  /// Everybody is at their start; `plan` outlives the search.
+  void start(Instant now, const planner::Plan& plan, const SearchObject& object) noexcept;
+
+  /// One cycle: the robot is at `robot` and has or has not come to the end of its path; simulated persons walk on.
+  /// Cost: a line of sight an agent.
+  void update(Instant now, Point robot, bool robot_path_ended) noexcept;
+
+  [[nodiscard]] SearchState state() const noexcept { return state_; }
+  /// The lowest-numbered agent that found it.
+  [[nodiscard]] std::optional<int> finder() const noexcept { return finder_; }
+  /// Real search time so far: from the start to the find, or to the last update.
+  [[nodiscard]] Duration elapsed() const noexcept { return elapsed_; }
+  [[nodiscard]] const AgentTrack& track(int agent) const noexcept { return tracks_[static_cast<std::size_t>(agent)]; }
+  [[nodiscard]] int agents() const noexcept { return static_cast<int>(searchers_.size()); }
+
+ private:
+  void move(std::size_t agent, Point to) noexcept;
+
+  const planner::Cells& cells_;
+  Searchers searchers_;
+  SearchObject object_;
+  Instant started_{};
+  Instant updated_{};
+  Duration elapsed_{};
+  SearchState state_ = SearchState::kRunning;
+  std::optional<int> finder_;
+  std::array<AgentTrack, limits::kAgents> tracks_{};
+  std::array<SimulatedPerson, limits::kAgents> persons_{};
+};
+
+}  // namespace ivo::firmware

@@ -1,0 +1,71 @@
+#include "firmware/motion/kinematics.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "config/base/contract.hpp"
+
+namespace ivo::firmware {
+namespace {
+
+using WheelMatrix = Eigen::Matrix<double, kWheels, 3>;
+using WheelVector = Eigen::Matrix<double, kWheels, 1>;
+
+bool positive(double value) noexcept { return std::isfinite(value) && value > 0; }
+
+WheelMatrix rim_speeds_from_twist(const BaseParameters& base) noexcept {
+  WheelMatrix signs;
+  signs << 1, -1, -1,  //
+      1, 1, 1,         //
+      1, 1, -1,        //
+      1, -1, 1;
+  const double lx = base.half_length_m;
+  const double ly = base.half_width_m;
+  const double diagonal = std::hypot(lx, ly);
+  const Eigen::Vector3d lever = base.geometry == WheelGeometry::kMecanum
+                                    ? Eigen::Vector3d(1.0, 1.0, lx + ly)
+                                    : Eigen::Vector3d(ly / diagonal, lx / diagonal, diagonal);
+  return signs * lever.asDiagonal();
+}
+
+}  // namespace
+
+Kinematics::Kinematics(const BaseParameters& base) noexcept
+    : wheel_radius_m_(base.wheel_radius_m), max_wheel_radps_(base.max_wheel_radps) {
+  IVO_CONTRACT(positive(base.wheel_radius_m) && positive(base.half_length_m) && positive(base.half_width_m) &&
+               positive(base.max_wheel_radps));
+  wheels_from_twist_ = rim_speeds_from_twist(base) / wheel_radius_m_;
+  const Eigen::Matrix3d normal = wheels_from_twist_.transpose() * wheels_from_twist_;
+  twist_from_wheels_ = normal.inverse() * wheels_from_twist_.transpose();
+}
+
+WheelValues Kinematics::wheel_speeds(const Twist& twist) const noexcept {
+  const WheelVector w = wheels_from_twist_ * Eigen::Vector3d(twist.vx_mps, twist.vy_mps, twist.wz_radps);
+  return {w[0], w[1], w[2], w[3]};
+}
+
+Twist Kinematics::twist(const WheelValues& speeds_radps) const noexcept {
+  const Eigen::Vector3d t = twist_from_wheels_ * Eigen::Map<const WheelVector>(speeds_radps.data());
+  return {t[0], t[1], t[2]};
+}
+
+double Kinematics::slip_residual_mps(const WheelValues& speeds_radps) const noexcept {
+  const auto& [fl, fr, rl, rr] = speeds_radps;
+  return wheel_radius_m_ * (fl + fr - rl - rr) / 2.0;
+}
+
+double Kinematics::saturation(const WheelValues& speeds_radps) const noexcept {
+  double scale = 1.0;
+  for (const double speed : speeds_radps) {
+    if (!std::isfinite(speed)) {
+      return 0.0;
+    }
+    if (std::abs(speed) > max_wheel_radps_) {
+      scale = std::min(scale, max_wheel_radps_ / std::abs(speed));
+    }
+  }
+  return scale;
+}
+
+}  // namespace ivo::firmware

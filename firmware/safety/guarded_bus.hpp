@@ -1,0 +1,51 @@
+// The second of two doors that motion passes: a bus that judges every frame before the real one sees it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "config/robot.hpp"
+#include "firmware/safety/frame_rules.hpp"
+#include "hal/api/can_bus.hpp"
+
+namespace ivo::firmware {
+
+/// Frames that FrameRules refuses never reach the inner bus; the others of the same span do, in order. Receiving, state
+/// and the bus's own counters are the inner bus's. One thread: the loop's.
+class GuardedBus final : public hal::CanBus {
+ public:
+  /// `inner` is the caller's and must outlive this.
+  GuardedBus(hal::CanBus& inner, const Robot& robot) noexcept : inner_(inner), rules_(robot) {}
+
+  /// Said anew in every cycle, between receive and send. A permit lets one frame that can move a wheel pass to each
+  /// drive; it ends when it is used, at the next receive, or with false. So a loop that hangs in sending, or goes round
+  /// without deciding, cannot go on moving the robot.
+  void permit_motion(bool permitted) noexcept { permits_.fill(permitted); }
+
+  std::size_t receive(std::span<hal::CanFrame> frames) noexcept override;
+
+  /// How many of the frames the inner bus took; refused ones are not among them.
+  std::size_t send(std::span<const hal::CanFrame> frames) noexcept override;
+
+  [[nodiscard]] hal::BusState state() const noexcept override { return inner_.state(); }
+  [[nodiscard]] hal::BusCounters counters() const noexcept override { return inner_.counters(); }
+
+  [[nodiscard]] std::uint64_t refused(FrameRefusal reason) const noexcept;
+  [[nodiscard]] std::uint64_t refused() const noexcept;
+  /// COB-ID of the last refused frame.
+  [[nodiscard]] std::optional<std::uint16_t> last_refused_id() const noexcept { return last_refused_id_; }
+
+ private:
+  bool passes(const hal::CanFrame& frame) noexcept;
+
+  hal::CanBus& inner_;
+  FrameRules rules_;
+  std::array<bool, kWheels> permits_{};
+  std::array<std::uint64_t, kFrameRefusals> refused_{};
+  std::optional<std::uint16_t> last_refused_id_;
+};
+
+}  // namespace ivo::firmware

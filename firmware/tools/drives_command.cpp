@@ -1,0 +1,114 @@
+#include "firmware/tools/drives_command.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <ostream>
+#include <string_view>
+
+#include "firmware/files/robot_file.hpp"
+#include "hal/linux/monotonic_clock.hpp"
+#include "hal/linux/socketcan_bus.hpp"
+
+namespace ivo::firmware {
+namespace {
+
+using TimeFrom = drivers::SimDrives::TimeFrom;
+
+constexpr Duration kTick = std::chrono::milliseconds(1);
+constexpr Duration kLookForSignal = std::chrono::milliseconds(100);
+
+Result<TimeFrom> parse_clock(std::string_view name) {
+  if (name == "real") {
+    return TimeFrom::kClock;
+  }
+  if (name == "sync") {
+    return TimeFrom::kSync;
+  }
+  return Error{"--clock is real or sync, not \"" + std::string(name) + "\""};
+}
+
+Result<void> take(DrivesOptions& options, std::string_view name, std::string_view value) {
+  if (name == "--can") {
+    options.interface = value;
+  } else if (name == "--robot") {
+    options.robot_path = value;
+  } else {
+    const Result<TimeFrom> time_from = parse_clock(value);
+    if (!time_from.ok()) {
+      return time_from.error();
+    }
+    options.time_from = time_from.value();
+  }
+  return {};
+}
+
+void simulate(hal::SocketCanBus& bus, drivers::SimDrives& drives, TimeFrom time_from, const std::atomic<bool>& stop) {
+  hal::MonotonicClock clock;
+  Instant tick = clock.now();
+  while (!stop.load(std::memory_order_relaxed)) {
+    const Instant now = clock.now();
+    drives.update(now);
+    tick = std::max(tick + kTick, now);
+    (void)bus.wait_readable(time_from == TimeFrom::kSync ? kLookForSignal : tick - now);
+  }
+}
+
+}  // namespace
+
+const char* drives_usage() noexcept {
+  return "usage: ivo-drives --can IFACE [--robot config/robots/ivo.toml] [--clock real|sync]\n"
+         "Simulates the robot's four wheel drives on a CAN interface until it gets SIGINT or SIGTERM.\n"
+         "  --can IFACE    CAN interface, as vcan0\n"
+         "  --robot FILE   robot file: node-ids, units and geometry of the drives\n"
+         "  --clock real   the drives keep their own time (default)\n"
+         "  --clock sync   each SYNC is one cycle further and nothing else moves time: for ivo run --clock sync\n";
+}
+
+Result<DrivesOptions> parse_drives_options(std::span<const char* const> arguments) {
+  DrivesOptions options;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const std::string_view name = arguments[i];
+    if (name == "--help" || name == "-h") {
+      options.help = true;
+      return options;
+    }
+    if (name != "--can" && name != "--robot" && name != "--clock") {
+      return Error{"unknown argument \"" + std::string(name) + "\": expected --can, --robot or --clock"};
+    }
+    if (++i == arguments.size()) {
+      return Error{std::string(name) + " expects a value"};
+    }
+    if (const Result<void> taken = take(options, name, arguments[i]); !taken.ok()) {
+      return taken.error();
+    }
+  }
+  if (options.interface.empty()) {
+    return Error{"--can IFACE is missing: the CAN interface to simulate drives on, as vcan0"};
+  }
+  return options;
+}
+
+Result<void> run_drives(const DrivesOptions& options, const std::atomic<bool>& stop, std::ostream& out) {
+  const Result<Robot> robot = read_robot(options.robot_path);
+  if (!robot.ok()) {
+    return robot.error();
+  }
+  Result<hal::SocketCanBus> bus = hal::SocketCanBus::open(options.interface);
+  if (!bus.ok()) {
+    return bus.error();
+  }
+  drivers::SimDrives drives(bus.value(), robot.value(), options.time_from);
+  drives.open();
+  out << "ivo-drives: four simulated drives (nodes";
+  for (const DriveParameters& drive : robot.value().drives) {
+    out << ' ' << int{drive.node_id};
+  }
+  out << ") on " << options.interface << std::endl;
+  simulate(bus.value(), drives, options.time_from, stop);
+  const hal::BusCounters counters = bus.value().counters();
+  out << "ivo-drives: " << counters.received << " frames received, " << counters.sent << " sent, "
+      << counters.receive_dropped << " lost in receiving, " << counters.send_dropped << " in sending" << std::endl;
+  return {};
+}
+
+}  // namespace ivo::firmware

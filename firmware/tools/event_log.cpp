@@ -1,0 +1,93 @@
+#include "firmware/tools/event_log.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <string_view>
+#include <utility>
+
+#include "firmware/files/number_text.hpp"
+#include "firmware/loop/loop_status.hpp"
+
+namespace ivo::firmware {
+namespace {
+
+std::string quoted(std::string_view text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') {
+      quoted += '\\';
+    }
+    quoted += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  }
+  return quoted + '"';
+}
+
+std::string field(std::string_view key, const std::string& value) { return ",\"" + std::string(key) + "\":" + value; }
+std::string field(std::string_view key, double value) { return field(key, shortest(value)); }
+std::string field(std::string_view key, std::int32_t value) { return field(key, std::to_string(value)); }
+
+std::string place(const Event& event) { return field("x_m", event.x) + field("y_m", event.y); }
+
+}  // namespace
+
+Result<EventLog> EventLog::create(const std::string& path, std::vector<std::string> agents) {
+  std::FILE* file = std::fopen(path.c_str(), "w");
+  if (file == nullptr) {
+    return Error{path + ": cannot be written: " + std::strerror(errno)};
+  }
+  return EventLog(file, std::move(agents));
+}
+
+EventLog::EventLog(std::FILE* file, std::vector<std::string> agents)
+    : file_(file), agents_(std::move(agents)), tracks_(agents_.size()) {}
+
+void EventLog::drain(EventRing& ring) {
+  bool any = false;
+  for (Event event; ring.pop(event); any = true) {
+    if (event.kind == EventKind::kPosition) {
+      tracks_[event.agent].push_back({event.x, event.y});
+    }
+    const std::string text = line(event) + "\n";
+    (void)std::fwrite(text.data(), 1, text.size(), file_.get());
+  }
+  if (any) {
+    (void)std::fflush(file_.get());
+  }
+}
+
+std::string EventLog::line(const Event& event) const {
+  const auto text = [&](std::string_view name, const std::string& fields = {}) {
+    return "{\"t_s\":" + shortest(seconds(event.at.time_since_epoch())) + field("event", quoted(name)) + fields + "}";
+  };
+  const auto agent = [&] { return field("agent", quoted(agents_[event.agent])); };
+  switch (event.kind) {
+    case EventKind::kMode:
+      return text("mode", field("mode", quoted(name_of(static_cast<Mode>(event.code)))));
+    case EventKind::kPlanImproved:
+      return text("plan improved",
+                  field("generation", event.code) + field("expected_time_s", event.x) + field("unseen_mass", event.y));
+    case EventKind::kPlanReady:
+      return text("plan ready", field("generations", event.code));
+    case EventKind::kConsent:
+      return text("consent");
+    case EventKind::kStopAsked:
+      return text("stop asked",
+                  field("cause", quoted(static_cast<StopCause>(event.code) == StopCause::kNoConsent ? "nobody consented"
+                                                                                                    : "operator")));
+    case EventKind::kSearchStarted:
+      return text("search started");
+    case EventKind::kPosition:
+      return text("position", agent() + place(event));
+    case EventKind::kFound:
+      return text("found", agent() + place(event));
+    case EventKind::kPathsEnded:
+      return text("paths ended");
+    case EventKind::kDriveFault:
+      return text("drive fault", field("wheel", std::int32_t{event.agent}) + field("reason", event.code));
+    case EventKind::kOverrun:
+      return text("overrun", field("periods", event.code));
+  }
+  return text("unknown");
+}
+
+}  // namespace ivo::firmware

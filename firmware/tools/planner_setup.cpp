@@ -1,0 +1,175 @@
+#include "firmware/tools/planner_setup.hpp"
+
+#include <cmath>
+#include <string>
+#include <variant>
+
+#include "firmware/files/number_text.hpp"
+#include "firmware/files/robot_file.hpp"
+
+namespace ivo::firmware {
+namespace {
+
+planner::Areas areas_of(const std::vector<Polygon>& polygons) {
+  planner::Areas areas;
+  for (const Polygon& polygon : polygons) {
+    areas.resize(areas.size() + 1);
+    areas.back().clear();
+    for (const Point vertex : polygon) {
+      IVO_CONTRACT(areas.back().push_back(vertex));  // the reader refuses larger polygons
+    }
+  }
+  return areas;
+}
+
+std::string place(Point p) { return "(" + shortest(p.x_m) + ", " + shortest(p.y_m) + ")"; }
+
+std::string whole(double value) { return shortest(std::round(value)); }
+
+std::string metres(double value) { return shortest(std::round(value * 100) / 100) + " m"; }
+
+std::string larger_profile(double value, int micro, int onboard, int desktop) {
+  const char* fits = value <= micro ? "micro" : value <= onboard ? "onboard" : value <= desktop ? "desktop" : nullptr;
+  return fits != nullptr ? std::string("; the planner profile that fits is ") + fits
+                         : std::string("; no planner profile is that large");
+}
+
+Error sentence(const planner::Refusal& refusal, const MissionInputs& inputs) {
+  using planner::RefusalCode;
+  const Lines& lines = inputs.file.lines;
+  const Mission& mission = inputs.file.mission;
+  const std::string agent_key = "agent[" + std::to_string(refusal.agent) + "]";
+  const AgentSpec* agent = refusal.agent >= 0 ? &mission.agents[static_cast<std::size_t>(refusal.agent)] : nullptr;
+  const std::string counts = whole(refusal.value) + ", more than this build's " + whole(refusal.limit);
+  switch (refusal.code) {
+    case RefusalCode::kNone:
+      break;
+    case RefusalCode::kTooManyCells:
+      return lines.at("planner.cell_m", "the map has too many cells: " + counts + "; expected a larger cell_m" +
+                                            larger_profile(refusal.value, limits::Micro::kCells,
+                                                           limits::Onboard::kCells, limits::Desktop::kCells));
+    case RefusalCode::kTooManySquares:
+    case RefusalCode::kTooManyNodes:
+      return lines.at("planner.spacing_m", "the graph has too many nodes: " + counts + "; expected a larger spacing_m" +
+                                               larger_profile(refusal.value, limits::Micro::kNodes,
+                                                              limits::Onboard::kNodes, limits::Desktop::kNodes));
+    case RefusalCode::kTooManyEdges:
+      return lines.at("planner.spacing_m", "the graph has too many edges: " + counts + "; expected a larger spacing_m");
+    case RefusalCode::kSightTableFull:
+      return lines.at("planner.cell_m", "the sight table is full at " + whole(refusal.limit) +
+                                            " entries; expected a larger cell_m or spacing_m");
+    case RefusalCode::kEdgeTooLong:
+      return lines.at("planner.cell_m", "an edge has " + whole(refusal.value) + " sight points, more than " +
+                                            whole(refusal.limit) + "; expected a larger cell_m or a smaller spacing_m");
+    case RefusalCode::kStartOutsideMap:
+      return lines.at(agent_key + ".start_m", place(agent->start) + " is outside the map; expected 0 to " +
+                                                  shortest(inputs.map.view().width_m()) + ", 0 to " +
+                                                  shortest(inputs.map.view().height_m()) + " (metres)");
+    case RefusalCode::kStartBlocked:
+      return lines.at(agent_key + ".start_m",
+                      refusal.value <= 0 ? place(agent->start) + " is inside an obstacle; expected a free place with " +
+                                               metres(refusal.limit) + " around it"
+                                         : place(agent->start) + " is " + metres(refusal.value) +
+                                               " from an obstacle or the border; expected at least " +
+                                               metres(refusal.limit) + ", the footprint's radius");
+    case RefusalCode::kStartRestricted:
+      return lines.at(agent_key + ".start_m", place(agent->start) + " is where " + agent->name +
+                                                  " may not be; expected a start outside restricted classes and areas");
+    case RefusalCode::kPriorWithoutMass:
+      return lines.at("prior", "holds no mass on any free cell of the map; expected some where an object may lie");
+    case RefusalCode::kNoMassObservable:
+      return lines.at(
+          agent_key + ".start_m",
+          agent->name +
+              " sees no place that may hold the object from anywhere it can go; expected a start from which it can");
+    case RefusalCode::kAreaWithoutMass:
+      return lines.at(
+          agent_key + ".preferred[" + std::to_string(refusal.area) + "]",
+          "covers nothing that may hold the object and that " + agent->name + " can see; expected an area that does");
+  }
+  return {"the planner refused the mission"};
+}
+
+}  // namespace
+
+planner::SearchProblem MissionInputs::problem() const {
+  const Mission& mission = file.mission;
+  planner::SearchProblem problem;
+  problem.map = map.view();
+  problem.cell_m = mission.planner.cell_m;
+  problem.graph = {.spacing_m = mission.planner.spacing_m, .clearance_m = mission.planner.clearance_m};
+  if (prior_image) {
+    problem.prior = planner::GreyView{prior_image->values, prior_image->width_px, prior_image->height_px,
+                                      std::get<ImagePrior>(mission.prior).resolution_m};
+  } else if (!gaussians.empty()) {
+    problem.prior = std::span<const planner::GaussianComponent>(gaussians);
+  }
+  for (const AgentSpec& spec : mission.agents) {
+    planner::SearchAgent agent;
+    agent.body = {
+        .start = spec.start,
+        .kind = spec.kind,
+        .footprint_radius_m = spec.kind == AgentKind::kRobot ? robot.footprint_radius_m : spec.footprint_radius_m,
+        .restricted = areas_of(spec.restricted)};
+    agent.speed_mps = spec.speed_mps;
+    agent.sight_radius_m = spec.sight_radius_m;
+    agent.preferred = areas_of(spec.preferred);
+    IVO_CONTRACT(problem.agents.push_back(agent));  // the reader refuses more agents
+  }
+  problem.colony = {
+      .generations = mission.planner.generations,
+      .ants = mission.planner.ants,
+      .beta = mission.planner.beta,
+      .rho = mission.planner.rho,
+      .iteration_best = mission.planner.iteration_best,
+      .ant = {.shortest_first = mission.planner.shortest_first, .max_unseen_mass = mission.planner.max_unseen_mass},
+      .seed = mission.seed};
+  return problem;
+}
+
+Result<MissionInputs> read_inputs(const std::string& mission_path) {
+  Result<MissionFile> file = read_mission(mission_path);
+  if (!file) {
+    return file.error();
+  }
+  MissionInputs inputs{.file = std::move(file).value(), .map = {}, .robot = {}, .prior_image = {}, .gaussians = {}};
+  const Mission& mission = inputs.file.mission;
+
+  Result<MapFile> map = read_map(mission.map_path);
+  if (!map) {
+    return map.error();
+  }
+  inputs.map = std::move(map).value();
+
+  Result<Robot> robot = read_robot(mission.agents.front().robot_path);
+  if (!robot) {
+    return robot.error();
+  }
+  inputs.robot = std::move(robot).value();
+
+  if (const auto* image = std::get_if<ImagePrior>(&mission.prior)) {
+    Result<GreyImage> grey = read_grey(image->image_path);
+    if (!grey) {
+      return grey.error();
+    }
+    inputs.prior_image = std::move(grey).value();
+  } else if (const auto* mixture = std::get_if<GaussianMixturePrior>(&mission.prior)) {
+    for (const Gaussian& part : mixture->components) {
+      inputs.gaussians.push_back({part.mean, part.sigma_m, part.weight});
+    }
+  }
+  return inputs;
+}
+
+Result<void> prepare(planner::Planner& planner, const MissionInputs& inputs) {
+  if (const planner::Refusal refusal = planner.prepare(inputs.problem())) {
+    return sentence(refusal, inputs);
+  }
+  if (const Point* place = std::get_if<Point>(&inputs.file.mission.object);
+      place != nullptr && !inputs.map.view().contains(*place)) {
+    return inputs.file.lines.at("object", "lies outside the map; expected a place on it");
+  }
+  return {};
+}
+
+}  // namespace ivo::firmware

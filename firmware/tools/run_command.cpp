@@ -1,0 +1,290 @@
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <thread>
+#include <variant>
+
+#include "config/rates.hpp"
+#include "firmware/files/text_file.hpp"
+#include "firmware/loop/control_loop.hpp"
+#include "firmware/loop/scheduler.hpp"
+#include "firmware/tools/event_log.hpp"
+#include "firmware/tools/planner_setup.hpp"
+#include "firmware/tools/run_documents.hpp"
+#include "firmware/tools/run_options.hpp"
+#include "firmware/tools/run_terminal.hpp"
+#include "firmware/tools/run_world.hpp"
+
+namespace ivo::firmware {
+namespace {
+
+constexpr int kEnded = 0;
+constexpr int kFaultOrStop = 1;
+constexpr int kWrongInput = 2;
+constexpr int kNoConsent = 3;
+
+constexpr int kObserveEveryMs = 50;
+constexpr int kObserveEveryCycles = 25;
+
+// The largest object of the product: static, so that its pages are there from the start and belong to nobody's heap.
+planner::Planner& the_planner() {
+  static planner::Planner planner;
+  return planner;
+}
+
+std::atomic<bool> stop_signalled{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+extern "C" void on_stop_signal(int /*number*/) { stop_signalled.store(true); }
+
+void listen_for_stop_signals() {
+  struct sigaction action {};
+  action.sa_handler = on_stop_signal;  // without SA_RESTART: a wait for an answer ends
+  (void)sigaction(SIGINT, &action, nullptr);
+  (void)sigaction(SIGTERM, &action, nullptr);
+}
+
+int refuse(const Error& error) {
+  (void)std::fflush(stdout);
+  (void)std::fprintf(stderr, "ivo: %s\n", error.message.c_str());
+  return kWrongInput;
+}
+
+SearchObject object_of(const Mission& mission, const planner::Planner& planner) {
+  if (const Point* place = std::get_if<Point>(&mission.object)) {
+    return {*place, mission.find};
+  }
+  if (std::holds_alternative<ObjectDrawn>(mission.object)) {
+    return SearchObject::drawn(planner.cells(), planner.belief(), mission.seed, mission.find);
+  }
+  return {};
+}
+
+LoopSetup setup_of(const MissionInputs& inputs, const SearchObject& object) {
+  LoopSetup setup{.robot = inputs.robot, .start = {}, .searchers = {}, .object = object};
+  for (const AgentSpec& agent : inputs.file.mission.agents) {
+    IVO_CONTRACT(setup.searchers.push_back({.kind = agent.kind,
+                                            .motion = agent.motion,
+                                            .start = agent.start,
+                                            .speed_mps = agent.speed_mps,
+                                            .sight_radius_m = agent.sight_radius_m}));
+  }
+  const AgentSpec& robot = inputs.file.mission.agents.front();
+  setup.start = {robot.start.x_m, robot.start.y_m, robot.heading_rad};
+  return setup;
+}
+
+std::vector<std::string> names_of(const Mission& mission) {
+  std::vector<std::string> names;
+  for (const AgentSpec& agent : mission.agents) {
+    names.push_back(agent.name);
+  }
+  return names;
+}
+
+/// One run, seen from outside the loop: shows, asks, records, and writes what is left of it.
+class Run {
+ public:
+  Run(const RunOptions& options, const RunView& view, ControlLoop& loop, RunWorld& world, EventLog log)
+      : options_(options), view_(view), loop_(loop), world_(world), log_(std::move(log)), terminal_(view) {}
+
+  void to_the_end() {
+    terminal_.show_mission(world_.description());
+    loop_.open(world_.clock().now());
+    if (world_.own_time()) {
+      for (int cycle = 0; one_cycle(); ++cycle) {
+        if (cycle % kObserveEveryCycles == 0) {
+          observe(-1);
+        }
+      }
+    } else {
+      std::atomic<bool> running{true};
+      std::thread loop([&] {
+        while (one_cycle()) {
+        }
+        running.store(false);
+      });
+      while (running.load()) {
+        observe(kObserveEveryMs);
+      }
+      loop.join();
+    }
+    observe(0);
+  }
+
+  int write_and_tell() {
+    const LoopStatus& status = loop_.status();
+    const RunOutcome outcome = outcome_of(view_, status, world_.stalled());
+    const planner::Plan* plan = status.plan_ready ? &loop_.plan() : nullptr;
+    terminal_.show_result(outcome, status, plan, world_.lapses());
+    Result<void> written = write("report.json", report_json(report_document(view_, plan, status, outcome)));
+    if (written && plan != nullptr) {
+      written = write_picture(path_of("search.png"), picture_of(view_, *plan, status, outcome, log_.tracks()));
+      terminal_.show_file(path_of("search.png"));
+    }
+    if (!written) {
+      (void)std::fprintf(stderr, "ivo: %s\n", written.error().message.c_str());
+      return kFaultOrStop;
+    }
+    terminal_.show_file(path_of("events.jsonl"));
+    switch (outcome.end) {
+      case RunEnd::kFound:
+      case RunEnd::kPathsEnded:
+        return kEnded;
+      case RunEnd::kNoConsent:
+        return kNoConsent;
+      case RunEnd::kStopped:
+      case RunEnd::kFault:
+        break;
+    }
+    return kFaultOrStop;
+  }
+
+  [[nodiscard]] std::string path_of(const char* name) const { return options_.out + "/" + name; }
+
+ private:
+  bool one_cycle() {
+    hal::Clock& clock = world_.clock();
+    loop_.cycle(clock.now(), skipped_);
+    world_.after_cycle(loop_);
+    if (loop_.finished() || world_.stalled()) {
+      return false;
+    }
+    skipped_ = scheduler_.advance(clock.now());
+    clock.sleep_until(scheduler_.deadline());
+    return true;
+  }
+
+  /// `wait_ms`: how long this may take while time goes on without us; -1 when it does not.
+  void observe(int wait_ms) {
+    log_.drain(loop_.events());
+    const LoopStatus& status = loop_.status();
+    if (stop_signalled.load() && !stop_sent_) {
+      stop_sent_ = loop_.command(OperatorCommand::kStop);
+    }
+    bool waited = false;
+    switch (status.mode) {
+      case Mode::kPlanning:
+        terminal_.show_planning(status.planning);
+        break;
+      case Mode::kStarting:
+        show_plan_once();
+        terminal_.show_starting(status);
+        break;
+      case Mode::kAwaitingConsent:
+        show_plan_once();
+        waited = seek_consent(wait_ms);
+        break;
+      case Mode::kSearching:
+      case Mode::kStopping:
+        if (status.search_started) {
+          terminal_.show_search(status);
+        }
+        break;
+      case Mode::kDone:
+      case Mode::kFault:
+        break;
+    }
+    if (wait_ms > 0 && !waited) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(wait_ms));
+    }
+  }
+
+  void show_plan_once() {
+    if (plan_shown_) {
+      return;
+    }
+    plan_shown_ = true;
+    terminal_.show_plan(loop_.plan());
+    if (write("plan.json", plan_json(plan_document(view_, loop_.plan())))) {
+      return;
+    }
+    (void)loop_.command(OperatorCommand::kStop);
+  }
+
+  bool seek_consent(int wait_ms) {
+    if (consent_sent_ || stop_sent_) {
+      return false;
+    }
+    if (options_.yes) {
+      consent_sent_ = loop_.command(OperatorCommand::kConsent);
+      return false;
+    }
+    if (!ConsentQuestion::possible()) {
+      consent_sent_ = loop_.command(OperatorCommand::kNoConsent);
+      return false;
+    }
+    if (!question_.asked()) {
+      question_.ask();
+    }
+    const Answer answer = question_.poll(wait_ms);
+    if (answer != Answer::kNone) {
+      consent_sent_ = loop_.command(answer == Answer::kYes ? OperatorCommand::kConsent : OperatorCommand::kNoConsent);
+    }
+    return true;
+  }
+
+  Result<void> write(const char* name, const std::string& contents) {
+    Result<void> written = write_file(path_of(name), contents);
+    if (written) {
+      terminal_.end_line();
+      terminal_.show_file(path_of(name));
+    }
+    return written;
+  }
+
+  const RunOptions& options_;
+  const RunView& view_;
+  ControlLoop& loop_;
+  RunWorld& world_;
+  EventLog log_;
+  RunTerminal terminal_;
+  ConsentQuestion question_;
+  Scheduler scheduler_{Instant{}, rates::kCycle};
+  std::int64_t skipped_ = 0;
+  bool plan_shown_ = false;
+  bool consent_sent_ = false;
+  bool stop_sent_ = false;
+};
+
+}  // namespace
+
+int run(const RunOptions& given) {
+  RunOptions options = given;
+  Result<MissionInputs> read = read_inputs(options.mission);
+  if (!read) {
+    return refuse(read.error());
+  }
+  const MissionInputs inputs = std::move(read).value();
+  Result<std::unique_ptr<RunWorld>> world = RunWorld::open(options, inputs.robot);
+  if (!world) {
+    return refuse(world.error());
+  }
+  planner::Planner& planner = the_planner();
+  if (const Result<void> prepared = prepare(planner, inputs); !prepared) {
+    return refuse(prepared.error());
+  }
+
+  if (options.out.empty()) {
+    options.out = "out/" + std::filesystem::path(options.mission).stem().string();
+  }
+  if (const Result<void> made = make_folder(options.out); !made) {
+    return refuse(made.error());
+  }
+  Result<EventLog> log = EventLog::create(options.out + "/events.jsonl", names_of(inputs.file.mission));
+  if (!log) {
+    return refuse(log.error());
+  }
+
+  const SearchObject object = object_of(inputs.file.mission, planner);
+  const auto loop = std::make_unique<ControlLoop>(setup_of(inputs, object), planner, world.value()->bus());
+  listen_for_stop_signals();
+  const RunView view{inputs, planner, object};
+  Run the_run(options, view, *loop, *world.value(), std::move(log).value());
+  the_run.to_the_end();
+  return the_run.write_and_tell();
+}
+
+}  // namespace ivo::firmware

@@ -1,0 +1,157 @@
+#include "firmware/tools/run_documents.hpp"
+
+#include <cstdio>
+#include <utility>
+
+namespace ivo::firmware {
+namespace {
+
+std::string fixed(double value, int decimals) {
+  char text[64];
+  (void)std::snprintf(text, sizeof text, "%.*f", decimals, value);
+  return text;
+}
+
+ScoreDocument score_document(const planner::PlanScore& score) {
+  return {.expected_time_s = score.expected_time_s,
+          .expected_time_continuous_s = score.expected_time_continuous_s,
+          .expected_sub_prior_time_s = score.expected_sub_prior_time_s,
+          .unseen_mass = score.unseen_mass,
+          .horizon_s = score.horizon_s,
+          .complete = score.complete};
+}
+
+const std::string& name_of_agent(const RunView& run, int agent) {
+  return run.inputs.file.mission.agents[static_cast<std::size_t>(agent)].name;
+}
+
+}  // namespace
+
+RunOutcome outcome_of(const RunView& run, const LoopStatus& status, bool stalled) {
+  if (stalled) {
+    return {RunEnd::kFault, "the drives no longer answer; expected ivo-drives --clock sync on the same interface"};
+  }
+  if (status.mode == Mode::kFault) {
+    if (status.drive_fault.reason != drivers::DriveFaultReason::kNone) {
+      return {RunEnd::kFault, drivers::describe(status.drive_fault)};
+    }
+    if (status.counters.bus_state >= hal::BusState::kOff) {
+      return {RunEnd::kFault, "the CAN bus is off, down or gone"};
+    }
+    return {RunEnd::kFault, "the drives lost power or did not come to rest"};
+  }
+  if (status.stop_cause == StopCause::kNoConsent) {
+    return {RunEnd::kNoConsent, "nobody consented to the plans"};
+  }
+  if (status.stop_cause == StopCause::kAsked) {
+    return {RunEnd::kStopped, "stop was asked for"};
+  }
+  if (status.finder) {
+    const AgentSpec& finder = run.inputs.file.mission.agents[static_cast<std::size_t>(*status.finder)];
+    return {RunEnd::kFound, finder.name + " found the object after " + fixed(seconds(status.search_time), 1) + " s"};
+  }
+  return {RunEnd::kPathsEnded, "both paths ended and nobody found the object"};
+}
+
+PlanDocument plan_document(const RunView& run, const planner::Plan& plan) {
+  const Mission& mission = run.inputs.file.mission;
+  PlanDocument document{.mission = mission.name,
+                        .map_path = run.inputs.map.path,
+                        .seed = mission.seed,
+                        .profile = limits::Planner::kName,
+                        .cell_m = mission.planner.cell_m,
+                        .spacing_m = mission.planner.spacing_m,
+                        .nodes = run.planner.graph().nodes(),
+                        .generations_done = run.planner.progress().generation,
+                        .unobservable_share = run.planner.belief().unobservable_share,
+                        .score = score_document(plan.score),
+                        .agents = {}};
+  for (std::size_t m = 0; m < mission.agents.size(); ++m) {
+    const AgentSpec& spec = mission.agents[m];
+    const planner::AgentPath& path = plan.paths[m];
+    document.agents.push_back({.name = spec.name,
+                               .kind = spec.kind,
+                               .speed_mps = spec.speed_mps,
+                               .sight_radius_m = spec.sight_radius_m,
+                               .length_m = path.length_m,
+                               .duration_s = path.duration_s,
+                               .waypoints = {path.waypoints.begin(), path.waypoints.end()}});
+  }
+  return document;
+}
+
+ReportDocument report_document(const RunView& run, const planner::Plan* plan, const LoopStatus& status,
+                               const RunOutcome& outcome) {
+  const Mission& mission = run.inputs.file.mission;
+  ReportDocument report;
+  report.mission = mission.name;
+  report.seed = mission.seed;
+  report.end = outcome.end;
+  report.reason = outcome.reason;
+  if (status.finder) {
+    report.finder = name_of_agent(run, *status.finder);
+  }
+  report.object = run.object.place();
+  if (plan != nullptr) {
+    report.score = score_document(plan->score);
+  }
+  const double search_s = status.search_started ? seconds(status.search_time) : 0.0;
+  report.real_search_time_s = search_s;
+  for (std::size_t m = 0; m < mission.agents.size(); ++m) {
+    const AgentTrack& track = status.tracks[m];
+    report.agents.push_back({.name = mission.agents[m].name,
+                             .kind = mission.agents[m].kind,
+                             .planned_length_m = plan != nullptr ? plan->paths[m].length_m : 0.0,
+                             .distance_m = track.moved_m,
+                             .mean_speed_mps = search_s > 0.0 ? track.moved_m / search_s : 0.0,
+                             .final_position = track.position});
+  }
+  report.cycles = status.counters.cycles;
+  report.frames_sent = status.counters.bus.sent;
+  report.frames_received = status.counters.bus.received;
+  if (status.drive_fault.reason != drivers::DriveFaultReason::kNone) {
+    report.drive_fault = drivers::describe(status.drive_fault);
+  }
+  return report;
+}
+
+SearchPicture picture_of(const RunView& run, const planner::Plan& plan, const LoopStatus& status,
+                         const RunOutcome& outcome, const std::vector<std::vector<Point>>& tracks) {
+  const Mission& mission = run.inputs.file.mission;
+  const planner::Cells& cells = run.planner.cells();
+  SearchPicture picture;
+  picture.map = &run.inputs.map;
+  picture.mass = std::span<const double>(run.planner.belief().mass.data(), static_cast<std::size_t>(cells.count()));
+  picture.columns = cells.columns();
+  picture.rows = cells.rows();
+  picture.cell_m = cells.cell_m();
+  for (std::size_t m = 0; m < mission.agents.size(); ++m) {
+    const AgentSpec& spec = mission.agents[m];
+    const planner::AgentPath& path = plan.paths[m];
+    picture.agents.push_back({.name = spec.name,
+                              .kind = spec.kind,
+                              .start = spec.start,
+                              .plan = {path.waypoints.begin(), path.waypoints.end()},
+                              .track = tracks[m],
+                              .preferred = spec.preferred});
+  }
+  if (status.search_started) {
+    picture.object = run.object.place();
+  }
+  if (status.finder) {
+    const auto finder = static_cast<std::size_t>(*status.finder);
+    picture.find = PicturedFind{finder, status.tracks[finder].position, mission.agents[finder].sight_radius_m};
+  }
+  picture.title = mission.name + ": " + outcome.reason;
+  picture.figures = "expected time " + fixed(plan.score.expected_time_s, 1) + " s, unseen " +
+                    fixed(100 * plan.score.unseen_mass, 1) + " %";
+  if (plan.score.expected_sub_prior_time_s > 0.0) {
+    picture.figures += ", on the sub-priors " + fixed(plan.score.expected_sub_prior_time_s, 1) + " s";
+  }
+  if (status.search_started) {
+    picture.figures += "; searched for " + fixed(seconds(status.search_time), 1) + " s";
+  }
+  return picture;
+}
+
+}  // namespace ivo::firmware

@@ -1,0 +1,37 @@
+// The documents of a run: plan.json, report.json and the picture, from what was read, planned and done.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "firmware/files/picture.hpp"
+#include "firmware/files/plan_file.hpp"
+#include "firmware/files/report_file.hpp"
+#include "firmware/loop/loop_status.hpp"
+#include "firmware/mission/search_object.hpp"
+#include "firmware/tools/planner_setup.hpp"
+
+namespace ivo::firmware {
+
+/// What a run is, in one place, for the documents and the terminal. All outlive it.
+struct RunView {
+  const MissionInputs& inputs;
+  const planner::Planner& planner;
+  const SearchObject& object;
+};
+
+/// How the run ended, and why in one line.
+struct RunOutcome {
+  RunEnd end = RunEnd::kStopped;
+  std::string reason;
+};
+
+[[nodiscard]] RunOutcome outcome_of(const RunView& run, const LoopStatus& status, bool stalled);
+[[nodiscard]] PlanDocument plan_document(const RunView& run, const planner::Plan& plan);
+/// `plan` may be null when there is none yet.
+[[nodiscard]] ReportDocument report_document(const RunView& run, const planner::Plan* plan, const LoopStatus& status,
+                                             const RunOutcome& outcome);
+[[nodiscard]] SearchPicture picture_of(const RunView& run, const planner::Plan& plan, const LoopStatus& status,
+                                       const RunOutcome& outcome, const std::vector<std::vector<Point>>& tracks);
+
+}  // namespace ivo::firmware

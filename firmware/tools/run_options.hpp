@@ -1,0 +1,21 @@
+// What `ivo run` was asked on the command line.
+#pragma once
+
+#include <string>
+
+namespace ivo::firmware {
+
+struct RunOptions {
+  std::string mission;
+  std::string out;         ///< folder; empty: out/<mission's file name>
+  bool yes = false;        ///< consent is given beforehand
+  bool max_speed = false;  ///< manual clock, as fast as it goes
+  double speed = 1.0;      ///< times real time
+  std::string can;         ///< interface; empty: drives simulated in this process
+  bool lock_step = false;  ///< time moves when the drives have answered
+};
+
+/// The whole of `ivo run`. Returns the exit status: 0 ended as planned, 1 fault or stop, 2 wrong input, 3 no consent.
+[[nodiscard]] int run(const RunOptions& options);
+
+}  // namespace ivo::firmware

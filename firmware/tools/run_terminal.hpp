@@ -1,0 +1,52 @@
+// The terminal of a run: what is going on, both plans, the question, the result. Outside the loop.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "firmware/tools/run_documents.hpp"
+
+namespace ivo::firmware {
+
+class RunTerminal {
+ public:
+  explicit RunTerminal(const RunView& run);
+
+  void show_mission(const std::string& bus) const;
+  /// Drawn over itself on a terminal; elsewhere a line a tenth of the way.
+  void show_planning(const planner::Progress& progress);
+  void show_plan(const planner::Plan& plan);
+  void show_starting(const LoopStatus& status);
+  void show_search(const LoopStatus& status);
+  void show_result(const RunOutcome& outcome, const LoopStatus& status, const planner::Plan* plan,
+                   std::uint64_t lapses);
+  void show_file(const std::string& path) const;
+  /// Ends the line that is drawn over itself.
+  void end_line();
+
+ private:
+  void overwrite(const std::string& line);
+
+  const RunView& run_;
+  bool live_;  // standard output is a terminal
+  bool line_open_ = false;
+  int tenth_shown_ = -1;
+};
+
+enum class Answer : std::uint8_t { kNone, kYes, kNo };
+
+/// Asks once whether to start; the answer comes from ask_again().
+class ConsentQuestion {
+ public:
+  /// Whether there is a terminal at which somebody can answer.
+  [[nodiscard]] static bool possible();
+  void ask();
+  /// Waits up to `wait_ms` for a line; a signal ends the wait.
+  [[nodiscard]] Answer poll(int wait_ms);
+  [[nodiscard]] bool asked() const noexcept { return asked_; }
+
+ private:
+  bool asked_ = false;
+};
+
+}  // namespace ivo::firmware

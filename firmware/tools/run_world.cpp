@@ -1,0 +1,114 @@
+#include "firmware/tools/run_world.hpp"
+
+#include <utility>
+
+#include "config/rates.hpp"
+#include "drivers/canopen/cob_id.hpp"
+#include "drivers/sim/sim_drives.hpp"
+#include "firmware/files/number_text.hpp"
+#include "hal/linux/lock_step.hpp"
+#include "hal/linux/monotonic_clock.hpp"
+#include "hal/linux/paced_clock.hpp"
+#include "hal/linux/socketcan_bus.hpp"
+#include "hal/sim/manual_clock.hpp"
+#include "hal/sim/virtual_bus.hpp"
+
+namespace ivo::firmware {
+namespace {
+
+class VirtualWorld final : public RunWorld {
+ public:
+  VirtualWorld(const RunOptions& options, const Robot& robot)
+      : paced_(options.speed, rates::kCycle),
+        max_speed_(options.max_speed),
+        speed_(options.speed),
+        drives_(bus_.port(1), robot, drivers::SimDrives::TimeFrom::kClock) {
+    drives_.open();
+  }
+
+  hal::CanBus& bus() noexcept override { return bus_.port(0); }
+  hal::Clock& clock() noexcept override { return max_speed_ ? static_cast<hal::Clock&>(manual_) : paced_; }
+  void after_cycle(const ControlLoop& /*loop*/) noexcept override { drives_.update(clock().now()); }
+  [[nodiscard]] std::uint64_t lapses() const noexcept override { return paced_.lapses(); }
+  [[nodiscard]] bool own_time() const noexcept override { return max_speed_; }
+  [[nodiscard]] std::string description() const override {
+    return "virtual bus, four simulated drives in this process, " +
+           (max_speed_ ? std::string("as fast as it goes") : shortest(speed_) + " x real time");
+  }
+
+ private:
+  hal::VirtualBus bus_;
+  hal::ManualClock manual_;
+  hal::PacedClock paced_;
+  bool max_speed_;
+  double speed_;
+  drivers::SimDrives drives_;
+};
+
+class SocketWorld final : public RunWorld {
+ public:
+  SocketWorld(const RunOptions& options, hal::SocketCanBus bus) : interface_(options.can), bus_(std::move(bus)) {}
+
+  hal::CanBus& bus() noexcept override { return bus_; }
+  hal::Clock& clock() noexcept override { return clock_; }
+  void after_cycle(const ControlLoop& /*loop*/) noexcept override {}
+  [[nodiscard]] bool own_time() const noexcept override { return false; }
+  [[nodiscard]] std::string description() const override { return interface_ + ", real time"; }
+
+ private:
+  std::string interface_;
+  hal::SocketCanBus bus_;
+  hal::MonotonicClock clock_;
+};
+
+class LockStepWorld final : public RunWorld {
+ public:
+  LockStepWorld(const RunOptions& options, hal::SocketCanBus bus, const Robot& robot)
+      : interface_(options.can), bus_(std::move(bus)), lock_step_(bus_, answers(robot)) {}
+
+  hal::CanBus& bus() noexcept override { return lock_step_; }
+  hal::Clock& clock() noexcept override { return lock_step_; }
+  void after_cycle(const ControlLoop& loop) noexcept override { lock_step_.expect_answers(loop.answers_awaited()); }
+  [[nodiscard]] bool stalled() const noexcept override { return lock_step_.stalled(); }
+  [[nodiscard]] bool own_time() const noexcept override { return true; }
+  [[nodiscard]] std::string description() const override { return interface_ + ", in lock step with the drives"; }
+
+ private:
+  static hal::LockStep::Options answers(const Robot& robot) {
+    hal::LockStep::Options options;
+    for (const DriveParameters& drive : robot.drives) {
+      (void)options.answer_ids.push_back(drivers::cob_id::tpdo1(drive.node_id));
+    }
+    return options;
+  }
+
+  std::string interface_;
+  hal::SocketCanBus bus_;
+  hal::LockStep lock_step_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<RunWorld>> RunWorld::open(const RunOptions& options, const Robot& robot) {
+  if (options.can.empty()) {
+    if (options.lock_step) {
+      return Error{
+          "--clock sync: there is nobody to keep step with on the virtual bus; expected it together with --can "
+          "INTERFACE"};
+    }
+    return std::unique_ptr<RunWorld>(std::make_unique<VirtualWorld>(options, robot));
+  }
+  if (options.max_speed || options.speed != 1.0) {
+    return Error{"--speed: drives on " + options.can + " have their own time; expected no --speed together with --can"};
+  }
+  Result<hal::SocketCanBus> bus = hal::SocketCanBus::open(options.can);
+  if (!bus) {
+    return bus.error();
+  }
+  if (options.lock_step) {
+    return std::unique_ptr<RunWorld>(std::make_unique<LockStepWorld>(options, std::move(bus).value(), robot));
+  }
+  return std::unique_ptr<RunWorld>(std::make_unique<SocketWorld>(options, std::move(bus).value()));
+}
+
+}  // namespace ivo::firmware

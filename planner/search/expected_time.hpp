@@ -1,0 +1,49 @@
+// Expected times of a plan from its first sightings (Eq. 8 and 10; model.md, "Sensing and expected time",
+// "Sub-priors").
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "config/limits.hpp"
+#include "planner/search/belief.hpp"
+#include "planner/search/first_sightings.hpp"
+#include "planner/search/plan.hpp"
+
+namespace ivo::planner {
+
+/// The margin is for the rounding of sums: who adds up the same cells in another order must not judge otherwise.
+[[nodiscard]] inline bool is_complete(double unseen_mass, double max_unseen_mass) noexcept {
+  return unseen_mass <= max_unseen_mass + 1e-9;
+}
+
+/// Adds up a plan's cells in any number of slices; then the times are sums' quotients.
+class ExpectedTime {
+ public:
+  void clear() noexcept { *this = ExpectedTime{}; }
+
+  /// Takes cells `first` to `first + count - 1` of belief.cells_with_mass(). Cost: `count`.
+  void add(const Belief& belief, const FirstSightings& sightings, int first, int count) noexcept;
+
+  /// When the path of an agent ends: where it last sees something new. 0 when it never does.
+  [[nodiscard]] double path_end_s(int agent) const noexcept { return path_end_s_[static_cast<std::size_t>(agent)]; }
+  /// `max_unseen_mass` decides what is complete.
+  [[nodiscard]] PlanScore score(const Belief& belief, double max_unseen_mass) const noexcept;
+
+ private:
+  void extend_path(int agent, double to_s) noexcept {
+    double& end_s = path_end_s_[static_cast<std::size_t>(agent)];
+    if (to_s > end_s) {
+      end_s = to_s;
+    }
+  }
+
+  double seen_mass_ = 0.0;
+  double mass_seconds_ = 0.0;    // sum of p t_c
+  double mass_steps_ = 0.0;      // sum of p (max(k, 1) - 1)
+  double sub_mass_ = 0.0;        // sum of p_w
+  double sub_mass_steps_ = 0.0;  // sum of p_w min(max(k, 1) - 1, K)
+  std::array<double, limits::kAgents> path_end_s_{};
+};
+
+}  // namespace ivo::planner

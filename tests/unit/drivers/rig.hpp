@@ -1,0 +1,118 @@
+// A robot's four simulated drives, a bus, a clock and the group under test, cycle by cycle in one process.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <vector>
+
+#include "config/rates.hpp"
+#include "drivers/drive_group.hpp"
+#include "drivers/sim/sim_drives.hpp"
+#include "hal/sim/manual_clock.hpp"
+#include "hal/sim/virtual_bus.hpp"
+
+namespace ivo::drivers {
+
+inline Robot test_robot() {
+  Robot robot;
+  for (std::size_t i = 0; i < robot.drives.size(); ++i) {
+    robot.drives[i].node_id = static_cast<std::uint8_t>(i + 1);
+    robot.drives[i].sign = i % 2 == 0 ? 1 : -1;
+    robot.drives[i].gear_ratio = 20.0;
+  }
+  return robot;
+}
+
+class Rig {
+ public:
+  explicit Rig(const SimDrives::Scripts& scripts = {}, const Robot& robot_parameters = test_robot(),
+               SimDrives::TimeFrom time_from = SimDrives::TimeFrom::kClock)
+      : robot(robot_parameters), drives(bus.port(1), robot, time_from, scripts), group(bus.port(0), robot) {
+    drives.open();
+    group.open(clock.now());
+  }
+
+  /// One cycle of the loop: receive, update, write; the drives answer; 2 ms pass.
+  const GroupFeedback& cycle() {
+    std::array<hal::CanFrame, 64> frames;
+    const std::size_t count = bus.port(0).receive(frames);
+    for (std::size_t i = 0; i < count; ++i) {
+      group.on_frame(frames[i]);
+    }
+    const GroupFeedback& seen = group.update(clock.now());
+    group.write(clock.now(), enable, targets);
+    clock.sleep_until(clock.now() + rates::kCycle);
+    if (drives_run) {
+      drives.update(clock.now());
+    }
+    listen();
+    feedback = seen;
+    return feedback;
+  }
+
+  void run(Duration time) {
+    for (const Instant end = clock.now() + time; clock.now() < end;) {
+      cycle();
+    }
+  }
+
+  /// Cycles until `state`, at most 20 s; false when it never came.
+  bool run_until(GroupState state) {
+    for (int i = 0; i < 10'000; ++i) {
+      if (cycle().state == state) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  bool enable_all() {
+    if (!run_until(GroupState::kReady)) {
+      return false;
+    }
+    enable = true;
+    return run_until(GroupState::kEnabled);
+  }
+
+  bool drive_at(double radps) {
+    targets.radps.fill(radps);
+    if (!enable_all()) {
+      return false;
+    }
+    run(std::chrono::milliseconds(500));
+    return feedback.state == GroupState::kEnabled;
+  }
+
+  /// A frame from a stranger on the bus.
+  void inject(const hal::CanFrame& frame) { bus.port(2).send({&frame, 1}); }
+
+  /// The last RPDO1 that went to `node_id`.
+  [[nodiscard]] hal::CanFrame last_command(std::uint8_t node_id) const {
+    for (auto frame = log.rbegin(); frame != log.rend(); ++frame) {
+      if (frame->id == 0x200 + node_id) {
+        return *frame;
+      }
+    }
+    return {};
+  }
+
+  Robot robot;
+  hal::VirtualBus bus;
+  hal::ManualClock clock;
+  SimDrives drives;
+  DriveGroup group;
+  bool enable = false;
+  bool drives_run = true;
+  WheelTargets targets;
+  GroupFeedback feedback;
+  std::vector<hal::CanFrame> log;  // every frame on the bus
+
+ private:
+  void listen() {
+    std::array<hal::CanFrame, 64> frames;
+    const std::size_t count = bus.port(3).receive(frames);
+    log.insert(log.end(), frames.begin(), frames.begin() + static_cast<std::ptrdiff_t>(count));
+  }
+};
+
+}  // namespace ivo::drivers

@@ -1,0 +1,126 @@
+#include "firmware/files/robot_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include "firmware/files/text_file.hpp"
+#include "tests/unit/firmware/files/complaint.hpp"
+#include "tests/unit/firmware/files/scratch_folder.hpp"
+
+namespace ivo::firmware {
+namespace {
+
+std::string drive(const std::string& wheel, int node_id) {
+  return "[drive." + wheel + "]\nnode_id = " + std::to_string(node_id) +
+         "\nsign = 1\ngear_ratio = 2\ncounts_per_turn = 100\nvelocity_per_radps = 10\n";
+}
+
+const std::string kRobot =
+    "footprint_radius_m = 0.3\n"                                                        // 1
+    "[base]\ngeometry = 'omni_x'\nwheel_radius_m = 0.1\nhalf_length_m = 0.2\n"          // 2 to 5
+    "half_width_m = 0.25\nmax_wheel_radps = 15\n"                                       // 6, 7
+    "[limits]\nmax_speed_mps = 0.5\nmax_turn_radps = 1\nmax_accel_mps2 = 0.5\n"         // 8 to 11
+    "max_turn_accel_radps2 = 1.5\nstop_decel_mps2 = 1\n"                                // 12, 13
+    "[bus]\nbit_rate_bps = 500000\nmaster_node_id = 100\n" +                            // 14 to 16
+    drive("front_left", 1) + drive("front_right", 2) + drive("rear_left", 3) +          // 17, 23, 29
+    drive("rear_right", 4) + "vendor_id = 0xFFFFFFFF\nproduct_code = 5\n";              // 35, 41, 42
+
+std::string complaint(std::string_view from, std::string_view to) {
+  const ScratchFolder folder;
+  return replaced(message_of(read_robot(folder.put("r.toml", replaced(kRobot, from, to)))), folder.path() + "/", "");
+}
+
+TEST(RobotFile, ReadsEveryField) {
+  const ScratchFolder folder;
+  const auto robot = read_robot(folder.put("rover.toml", kRobot));
+  ASSERT_TRUE(robot.ok()) << robot.error().message;
+  const Robot& r = robot.value();
+  EXPECT_EQ(r.name, "rover");
+  EXPECT_EQ(r.footprint_radius_m, 0.3);
+  EXPECT_EQ(r.base.geometry, WheelGeometry::kOmniX);
+  EXPECT_EQ(r.base.wheel_radius_m, 0.1);
+  EXPECT_EQ(r.base.half_length_m, 0.2);
+  EXPECT_EQ(r.base.half_width_m, 0.25);
+  EXPECT_EQ(r.base.max_wheel_radps, 15);
+  EXPECT_EQ(r.limits.max_speed_mps, 0.5);
+  EXPECT_EQ(r.limits.max_turn_radps, 1);
+  EXPECT_EQ(r.limits.max_accel_mps2, 0.5);
+  EXPECT_EQ(r.limits.max_turn_accel_radps2, 1.5);
+  EXPECT_EQ(r.limits.stop_decel_mps2, 1);
+  EXPECT_EQ(r.bit_rate_bps, 500'000U);
+  EXPECT_EQ(r.master_node_id, 100);
+  for (std::size_t i = 0; i < r.drives.size(); ++i) {
+    EXPECT_EQ(r.drives[i].node_id, i + 1);
+    EXPECT_EQ(r.drives[i].gear_ratio, 2);
+    EXPECT_EQ(r.drives[i].counts_per_turn, 100);
+    EXPECT_EQ(r.drives[i].velocity_per_radps, 10);
+  }
+  EXPECT_EQ(r.drives[3].vendor_id, 0xFFFFFFFFU);
+  EXPECT_EQ(r.drives[3].product_code, 5U);
+  EXPECT_EQ(r.drives[0].vendor_id, 0U);
+}
+
+TEST(RobotFile, RefusesNodeIdsThatAreSharedOrOutOfRange) {
+  EXPECT_EQ(complaint("node_id = 3", "node_id = 1"),
+            "r.toml:30: drive.rear_left.node_id: 1 is already drive.front_left's; expected a node-id of its own");
+  EXPECT_EQ(complaint("node_id = 3", "node_id = 100"),
+            "r.toml:30: drive.rear_left.node_id: 100 is the master's (bus.master_node_id); expected a node-id of its own");
+  EXPECT_EQ(complaint("node_id = 3", "node_id = 127"),
+            "r.toml:30: drive.rear_left.node_id: 127 is out of range; expected 1 to 126");
+  EXPECT_EQ(complaint("node_id = 3", "node_id = 0"),
+            "r.toml:30: drive.rear_left.node_id: 0 is out of range; expected 1 to 126");
+}
+
+TEST(RobotFile, RefusesASignThatIsNoDirection) {
+  EXPECT_EQ(complaint("sign = 1", "sign = 0"),
+            "r.toml:19: drive.front_left.sign: 0 is no direction; expected 1 or -1");
+  EXPECT_EQ(complaint("sign = 1", "sign = 2"), "r.toml:19: drive.front_left.sign: 2 is out of range; expected -1 to 1");
+}
+
+TEST(RobotFile, RefusesAStopThatIsGentlerThanBraking) {
+  EXPECT_EQ(complaint("stop_decel_mps2 = 1", "stop_decel_mps2 = 0.4"),
+            "r.toml:13: limits.stop_decel_mps2: 0.4 is gentler than ordinary braking; expected at least max_accel_mps2, "
+            "0.5");
+}
+
+TEST(RobotFile, RefusesBitRatesThatAreNoneOrTooSlow) {
+  EXPECT_EQ(complaint("500000", "600000"),
+            "r.toml:15: bus.bit_rate_bps: 600000 is no CANopen bit rate; expected 500000, 800000 or 1000000");
+  EXPECT_EQ(complaint("500000", "250000"),
+            "r.toml:15: bus.bit_rate_bps: 250000 is out of range; expected 500000 to 1000000");
+}
+
+TEST(RobotFile, RefusesAWheelThatIsMissing) {
+  EXPECT_EQ(complaint(drive("rear_left", 3), ""), "r.toml:17: drive.rear_left: missing; it must be given");
+}
+
+TEST(RobotFile, RefusesUnknownGeometryUnknownKeysAndOtherUnits) {
+  EXPECT_EQ(complaint("'omni_x'", "'tank'"),
+            "r.toml:3: base.geometry: \"tank\" is unknown; expected \"mecanum\" or \"omni_x\"");
+  EXPECT_EQ(complaint("wheel_radius_m = 0.1", "wheel_radius_mm = 100"),
+            "r.toml:4: base.wheel_radius_mm: unknown; this quantity is given as wheel_radius_m, in metres");
+  EXPECT_EQ(complaint("sign = 1", "sign = 1\ntorque = 3"),
+            "r.toml:20: drive.front_left.torque: unknown; expected one of node_id, sign, gear_ratio, counts_per_turn, "
+            "velocity_per_radps, vendor_id, product_code");
+}
+
+// Every number of the file, made far too large: no field is read without a range.
+TEST(RobotFile, RefusesEveryNumberOutOfRange) {
+  std::size_t at = 0;
+  int numbers = 0;
+  while ((at = kRobot.find(" = ", at)) != std::string::npos) {
+    at += 3;
+    const std::size_t end = kRobot.find('\n', at);
+    if (kRobot[at] == '\'') {
+      continue;
+    }
+    const ScratchFolder folder;
+    const std::string text = kRobot.substr(0, at) + "999999999999" + kRobot.substr(end);
+    const std::string message = message_of(read_robot(folder.put("r.toml", text)));
+    EXPECT_NE(message.find("999999999999 is out of range; expected "), std::string::npos) << text << message;
+    ++numbers;
+  }
+  EXPECT_EQ(numbers, 34);
+}
+
+}  // namespace
+}  // namespace ivo::firmware

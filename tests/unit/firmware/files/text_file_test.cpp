@@ -1,0 +1,89 @@
+#include "firmware/files/text_file.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <filesystem>
+#include <string>
+
+#include "tests/unit/firmware/files/scratch_folder.hpp"
+
+namespace ivo::firmware {
+namespace {
+
+TEST(TextFile, ReadsBackWhatItWrote) {
+  const ScratchFolder folder;
+  const std::string contents("one\ntwo\0three\n", 14);
+  ASSERT_TRUE(write_file(folder.path("a.txt"), contents).ok());
+  EXPECT_EQ(read_file(folder.path("a.txt")).value(), contents);
+}
+
+TEST(TextFile, ReplacesAnOlderFileAndLeavesNothingElse) {
+  const ScratchFolder folder;
+  ASSERT_TRUE(write_file(folder.path("a.txt"), "a long first version").ok());
+  ASSERT_TRUE(write_file(folder.path("a.txt"), "second").ok());
+  EXPECT_EQ(read_file(folder.path("a.txt")).value(), "second");
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"a.txt"});
+}
+
+TEST(TextFile, RefusesToReadWhatIsNotThereOrIsAFolder) {
+  const ScratchFolder folder;
+  EXPECT_EQ(read_file(folder.path("none.txt")).error().message,
+            folder.path("none.txt") + ": cannot be read: No such file or directory");
+  EXPECT_EQ(read_file(folder.path()).error().message, folder.path() + ": cannot be read: Is a directory");
+}
+
+TEST(TextFile, RefusesToWriteIntoAFolderThatIsNotThere) {
+  const ScratchFolder folder;
+  EXPECT_EQ(write_file(folder.path("none/a.txt"), "x").error().message,
+            folder.path("none/a.txt") + ": cannot be written: No such file or directory");
+}
+
+TEST(TextFile, LeavesNothingBehindWhenTheRenameFails) {
+  const ScratchFolder folder;
+  ASSERT_TRUE(make_folder(folder.path("taken/inner")).ok());
+  EXPECT_EQ(write_file(folder.path("taken"), "x").error().message,
+            folder.path("taken") + ": cannot be written: Is a directory");
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"taken"});
+}
+
+TEST(TextFile, KeepsTheOldFileWhenTheDiskIsFull) {
+  const ScratchFolder folder;
+  ASSERT_TRUE(write_file(folder.path("a.txt"), "old").ok());
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit small = before;
+  small.rlim_cur = 1000;
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  const Result<void> written = write_file(folder.path("a.txt"), std::string(5000, 'x'));
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_EQ(written.error().message, folder.path("a.txt") + ": cannot be written: File too large");
+  EXPECT_EQ(read_file(folder.path("a.txt")).value(), "old");
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"a.txt"});
+}
+
+TEST(TextFile, MakesFoldersAndTheFoldersAboveThemTwiceWithoutComplaint) {
+  const ScratchFolder folder;
+  EXPECT_TRUE(make_folder(folder.path("a/b/c")).ok());
+  EXPECT_TRUE(make_folder(folder.path("a/b/c")).ok());
+  EXPECT_TRUE(std::filesystem::is_directory(folder.path("a/b/c")));
+}
+
+TEST(TextFile, RefusesToMakeAFolderWhereAFileIs) {
+  const ScratchFolder folder;
+  ASSERT_TRUE(write_file(folder.path("a"), "x").ok());
+  EXPECT_FALSE(make_folder(folder.path("a")).ok());
+  EXPECT_EQ(make_folder(folder.path("a")).error().message.find(folder.path("a") + ": cannot be made: "), 0U);
+}
+
+TEST(TextFile, FindsPathsBesideAFile) {
+  EXPECT_EQ(beside("config/missions/a.toml", "../maps/b.toml"), "config/maps/b.toml");
+  EXPECT_EQ(beside("a.toml", "b.png"), "b.png");
+  EXPECT_EQ(beside("config/a.toml", "/srv/b.png"), "/srv/b.png");
+}
+
+}  // namespace
+}  // namespace ivo::firmware

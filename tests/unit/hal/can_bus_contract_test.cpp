@@ -1,0 +1,162 @@
+// What every CanBus promises (hal/api/can_bus.hpp), asked of each one that there is.
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "hal/linux/socketcan_bus.hpp"
+#include "hal/sim/virtual_bus.hpp"
+
+namespace ivo::hal {
+namespace {
+
+struct VirtualPair {
+  VirtualBus bus;
+  CanBus& a = bus.port(0);
+  CanBus& b = bus.port(1);
+};
+
+/// Two ends of an AF_UNIX pair, which carries whole can_frames where the kernel has no CAN.
+struct SocketPair {
+  static std::array<int, 2> make() {
+    std::array<int, 2> fds{};
+    EXPECT_EQ(socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK, 0, fds.data()), 0);
+    return fds;
+  }
+  std::array<int, 2> fds = make();
+  SocketCanBus a{FileDescriptor(fds[0])};
+  SocketCanBus b{FileDescriptor(fds[1])};
+};
+
+/// Two sockets on vcan0.
+struct VcanPair {
+  Result<SocketCanBus> first = SocketCanBus::open("vcan0");
+  Result<SocketCanBus> second = SocketCanBus::open("vcan0");
+  CanBus& a = first.value();
+  CanBus& b = second.value();
+};
+
+template <class Pair>
+bool available() {
+  return true;
+}
+template <>
+bool available<VcanPair>() {
+  return SocketCanBus::open("vcan0").ok();
+}
+
+template <class Pair>
+class CanBusContract : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!available<Pair>()) {
+      GTEST_SKIP() << "there is no vcan0 here";
+    }
+    pair_.emplace();
+  }
+  CanBus& a() { return pair_->a; }
+  CanBus& b() { return pair_->b; }
+
+ private:
+  std::optional<Pair> pair_;
+};
+
+using Pairs = testing::Types<VirtualPair, SocketPair, VcanPair>;
+TYPED_TEST_SUITE(CanBusContract, Pairs);
+
+std::vector<CanFrame> numbered(std::size_t count) {
+  std::vector<CanFrame> frames(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    frames[i] = {.id = static_cast<std::uint16_t>(i % 0x800), .size = static_cast<std::uint8_t>(i % 9), .data = {}};
+    for (std::size_t byte = 0; byte < frames[i].size; ++byte) {
+      frames[i].data[byte] = static_cast<std::uint8_t>(i + byte);
+    }
+  }
+  return frames;
+}
+
+std::vector<CanFrame> all_of(CanBus& bus) {
+  std::vector<CanFrame> all;
+  std::array<CanFrame, 50> some;
+  while (const std::size_t count = bus.receive(some)) {
+    all.insert(all.end(), some.begin(), some.begin() + static_cast<std::ptrdiff_t>(count));
+  }
+  return all;
+}
+
+TYPED_TEST(CanBusContract, DeliversFramesWholeAndInOrder) {
+  const std::vector<CanFrame> frames = numbered(100);
+  EXPECT_EQ(this->a().send(frames), frames.size());
+  EXPECT_EQ(all_of(this->b()), frames);
+}
+
+TYPED_TEST(CanBusContract, CarriesEveryIdentifierAndEverySize) {
+  const std::vector<CanFrame> frames = numbered(0x800);
+  std::vector<CanFrame> arrived;
+  for (std::size_t i = 0; i < frames.size(); i += 64) {
+    EXPECT_EQ(this->a().send(std::span(frames).subspan(i, 64)), 64U);
+    const std::vector<CanFrame> some = all_of(this->b());
+    arrived.insert(arrived.end(), some.begin(), some.end());
+  }
+  EXPECT_EQ(arrived, frames);
+}
+
+TYPED_TEST(CanBusContract, DoesNotHearItself) {
+  this->a().send(numbered(3));
+  EXPECT_TRUE(all_of(this->a()).empty());
+}
+
+TYPED_TEST(CanBusContract, HandsOutWhatFitsAndKeepsTheRest) {
+  const std::vector<CanFrame> frames = numbered(5);
+  this->a().send(frames);
+  std::array<CanFrame, 3> room;
+  ASSERT_EQ(this->b().receive(room), 3U);
+  EXPECT_EQ(room[2], frames[2]);
+  ASSERT_EQ(this->b().receive(room), 2U);
+  EXPECT_EQ(room[1], frames[4]);
+  EXPECT_EQ(this->b().receive(room), 0U);
+}
+
+TYPED_TEST(CanBusContract, CountsWhatItSentAndReceived) {
+  this->a().send(numbered(5));
+  all_of(this->b());
+  EXPECT_EQ(this->a().counters().sent, 5U);
+  EXPECT_EQ(this->a().counters().received, 0U);
+  EXPECT_EQ(this->b().counters().received, 5U);
+  EXPECT_EQ(this->b().counters().sent, 0U);
+}
+
+TYPED_TEST(CanBusContract, AcceptsEmptySpans) {
+  EXPECT_EQ(this->a().send({}), 0U);
+  this->b().send(numbered(1));
+  EXPECT_EQ(this->a().receive({}), 0U);
+  EXPECT_EQ(all_of(this->a()).size(), 1U);
+}
+
+TYPED_TEST(CanBusContract, IsActiveFromTheStart) {
+  EXPECT_EQ(this->a().state(), BusState::kActive);
+  EXPECT_EQ(this->a().counters().send_dropped, 0U);
+  EXPECT_EQ(this->a().counters().receive_dropped, 0U);
+}
+
+TYPED_TEST(CanBusContract, UnderAFloodKeepsTheOldestAndCountsTheRest) {
+  const std::vector<CanFrame> frames = numbered(4000);
+  for (std::size_t i = 0; i < frames.size(); i += 100) {
+    this->a().send(std::span(frames).subspan(i, 100));
+  }
+  EXPECT_EQ(this->a().counters().sent + this->a().counters().send_dropped, frames.size());
+  std::vector<CanFrame> arrived = all_of(this->b());
+  ASSERT_FALSE(arrived.empty());
+  ASSERT_LT(arrived.size(), frames.size());
+  EXPECT_TRUE(std::equal(arrived.begin(), arrived.begin() + 16, frames.begin()));
+
+  // A socket tells its losses with the next frame that gets through.
+  this->a().send(numbered(1));
+  all_of(this->b());
+  EXPECT_EQ(this->b().counters().received + this->b().counters().receive_dropped, this->a().counters().sent);
+}
+
+}  // namespace
+}  // namespace ivo::hal

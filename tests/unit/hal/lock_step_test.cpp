@@ -1,0 +1,144 @@
+#include "hal/linux/lock_step.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+
+#include <array>
+#include <thread>
+#include <vector>
+
+namespace ivo::hal {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr CanFrame frame_of(std::uint16_t id) { return {.id = id, .size = 0, .data = {}}; }
+constexpr CanFrame kSync = frame_of(0x080);
+
+/// A lock step whose other end the test plays.
+class LockStepWithPeer : public testing::Test {
+ protected:
+  static LockStep::Options options(Duration patience) {
+    LockStep::Options options;
+    for (const std::uint16_t id : std::initializer_list<std::uint16_t>{0x181, 0x182, 0x183, 0x184}) {
+      EXPECT_TRUE(options.answer_ids.push_back(id));
+    }
+    options.patience = patience;
+    return options;
+  }
+  void answer(std::initializer_list<std::uint16_t> ids) {
+    for (const std::uint16_t id : ids) {
+      const CanFrame frame = frame_of(id);
+      ASSERT_EQ(peer_.send({&frame, 1}), 1U);
+    }
+  }
+  std::vector<std::uint16_t> received(LockStep& step) {
+    std::array<CanFrame, 64> frames;
+    const std::size_t count = step.receive(frames);
+    std::vector<std::uint16_t> ids;
+    for (std::size_t i = 0; i < count; ++i) {
+      ids.push_back(frames[i].id);
+    }
+    return ids;
+  }
+
+  std::array<int, 2> fds_ = [] {
+    std::array<int, 2> fds{};
+    EXPECT_EQ(socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK, 0, fds.data()), 0);
+    return fds;
+  }();
+  SocketCanBus bus_{FileDescriptor(fds_[0])};
+  SocketCanBus peer_{FileDescriptor(fds_[1])};
+  // Long enough that a test which waits in vain is a test that fails by hanging, not one that passes by luck.
+  LockStep step_{bus_, options(std::chrono::minutes(5))};
+  LockStep impatient_{bus_, options(milliseconds(5))};
+  Instant next_{milliseconds(2)};
+};
+
+using LockStepTest = LockStepWithPeer;
+
+TEST_F(LockStepTest, DoesNotWaitBeforeAnythingWasSent) {
+  step_.expect_answers(4);
+  step_.sleep_until(next_);
+  EXPECT_EQ(step_.now(), next_);
+  EXPECT_FALSE(step_.stalled());
+}
+
+TEST_F(LockStepTest, DoesNotWaitWhenNothingIsExpected) {
+  const CanFrame heartbeat = frame_of(0x77F);
+  step_.send({&heartbeat, 1});
+  step_.sleep_until(next_);
+  EXPECT_EQ(step_.now(), next_);
+}
+
+TEST_F(LockStepTest, AfterSyncWaitsForEveryFeedbackWhateverElseArrives) {
+  step_.send({&kSync, 1});
+  answer({0x181, 0x182});
+  std::thread drives([this] { answer({0x701, 0x581, 0x184, 0x182, 0x183}); });
+  step_.sleep_until(next_);
+  drives.join();
+  EXPECT_EQ(step_.now(), next_);
+  EXPECT_EQ(received(step_), (std::vector<std::uint16_t>{0x181, 0x182, 0x701, 0x581, 0x184, 0x182, 0x183}));
+}
+
+TEST_F(LockStepTest, AfterSyncOneFeedbackMissingStallsAndIsNotMadeUpForByAnother) {
+  impatient_.send({&kSync, 1});
+  answer({0x181, 0x182, 0x183, 0x183, 0x183});
+  impatient_.sleep_until(next_);
+  EXPECT_TRUE(impatient_.stalled());
+}
+
+TEST_F(LockStepTest, OutsideOfSyncWaitsForAsManyAnswersAsAreExpected) {
+  const CanFrame request = frame_of(0x601);
+  step_.send({&request, 1});
+  step_.expect_answers(2);
+  answer({0x581});
+  std::thread drives([this] { answer({0x582}); });
+  step_.sleep_until(next_);
+  drives.join();
+  EXPECT_EQ(received(step_).size(), 2U);
+}
+
+TEST_F(LockStepTest, HoldsBackWhatArrivesAfterTheSleep) {
+  step_.send({&kSync, 1});
+  answer({0x181, 0x182, 0x183, 0x184});
+  step_.sleep_until(next_);
+  answer({0x701});
+  EXPECT_EQ(received(step_).size(), 4U);
+  EXPECT_TRUE(received(step_).empty());
+  step_.sleep_until(next_ + milliseconds(2));
+  EXPECT_EQ(received(step_), (std::vector<std::uint16_t>{0x701}));
+}
+
+TEST_F(LockStepTest, StallsWhenDrivesStaySilentAndNeverWaitsAgain) {
+  impatient_.send({&kSync, 1});
+  impatient_.sleep_until(next_);
+  EXPECT_TRUE(impatient_.stalled());
+  EXPECT_EQ(impatient_.now(), next_);
+  impatient_.send({&kSync, 1});
+  impatient_.sleep_until(next_ + milliseconds(2));
+  EXPECT_EQ(impatient_.now(), next_ + milliseconds(2));
+}
+
+TEST_F(LockStepTest, ASyncThatTheInterfaceRefusedIsNotWaitedFor) {
+  while (bus_.send({&kSync, 1}) == 1) {
+  }
+  const std::array<CanFrame, 2> frames{kSync, kSync};
+  EXPECT_EQ(step_.send(frames), 0U);
+  step_.sleep_until(next_);
+  EXPECT_FALSE(step_.stalled());
+}
+
+TEST_F(LockStepTest, CountsFramesThatItsQueueCannotHold) {
+  const CanFrame noise = frame_of(0x7FF);
+  const std::vector<CanFrame> burst(64, noise);
+  for (std::size_t sent = 0; sent < LockStep::kQueueFrames + 64; sent += burst.size()) {
+    ASSERT_EQ(peer_.send(burst), burst.size());
+    step_.sleep_until(next_);
+  }
+  EXPECT_EQ(step_.counters().receive_dropped, 64U);
+  EXPECT_EQ(step_.counters().received, LockStep::kQueueFrames);
+}
+
+}  // namespace
+}  // namespace ivo::hal

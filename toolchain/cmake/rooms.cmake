@@ -1,0 +1,45 @@
+# One static library a room, one program a main: all the product's targets are made here.
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+add_library(ivo_flags INTERFACE)
+target_include_directories(ivo_flags INTERFACE ${PROJECT_SOURCE_DIR})
+target_compile_options(
+  ivo_flags
+  INTERFACE -Wall
+            -Wextra
+            -Wpedantic
+            -Wconversion
+            -Wshadow
+            -Wnon-virtual-dtor
+            -Wold-style-cast
+            -Werror
+            # The same sums on every CPU: no fused multiply-add behind the formula's back.
+            -ffp-contract=off)
+
+# ivo_room(FOLDER [LINKS target...]): the library of FOLDER's sources. firmware/motion becomes ivo_firmware_motion.
+function(ivo_room folder)
+  cmake_parse_arguments(ROOM "" "" "LINKS" ${ARGN})
+  string(REPLACE "/" "_" name ivo_${folder})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.cpp)
+  if(sources)
+    add_library(${name} STATIC ${sources})
+    target_link_libraries(${name} PUBLIC ivo_flags ${ROOM_LINKS})
+  else()
+    add_library(${name} INTERFACE)
+    target_link_libraries(${name} INTERFACE ivo_flags ${ROOM_LINKS})
+  endif()
+endfunction()
+
+# ivo_program(NAME MAIN [LINKS target...])
+function(ivo_program name main)
+  cmake_parse_arguments(PROGRAM "" "" "LINKS" ${ARGN})
+  if(EXISTS ${PROJECT_SOURCE_DIR}/${main})
+    add_executable(${name} ${main})
+    target_link_libraries(${name} PRIVATE ${PROGRAM_LINKS})
+    set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
+  endif()
+endfunction()
