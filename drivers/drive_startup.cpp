@@ -10,6 +10,7 @@ DriveStartup::DriveStartup(const DriveParameters& drive, Wheel wheel, std::uint8
 void DriveStartup::open() noexcept {
   phase_ = Phase::kResetting;
   booted_ = false;
+  booted_twice_ = false;
   heard_ = NmtState::kBootUp;
   mode_deadline_.reset();
   fault_ = {};
@@ -27,7 +28,13 @@ void DriveStartup::on_boot_up() noexcept {
       booted_ = true;
       break;
     case Phase::kConfiguring:
-      fail(DriveFaultReason::kRebooted, step().name, 0);
+      // A node that was just booting when it was reset boots twice: the first answer was not to the reset.
+      if (step_ == 0 && !booted_twice_) {
+        booted_twice_ = true;
+        begin_step();
+      } else {
+        fail(DriveFaultReason::kRebooted, step().name, 0);
+      }
       break;
     case Phase::kConfigured:
     case Phase::kStarting:

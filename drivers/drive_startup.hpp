@@ -65,6 +65,7 @@ class DriveStartup {
   std::size_t step_ = 0;
   cia402::Mode mode_{};
   bool booted_ = false;
+  bool booted_twice_ = false;
   NmtState heard_ = NmtState::kBootUp;
   Instant deadline_{};  // of kBooting and kConfirming
   std::optional<Instant> mode_deadline_;

@@ -1,16 +1,13 @@
 #include "drivers/sim/sim_drive.hpp"
 
-#include <algorithm>
 #include <bit>
 #include <chrono>
 #include <span>
 
+#include "config/base/contract.hpp"
 #include "drivers/canopen/cob_id.hpp"
 #include "drivers/canopen/communication_objects.hpp"
 #include "drivers/canopen/emcy.hpp"
-#include "drivers/canopen/little_endian.hpp"
-#include "drivers/canopen/pdo.hpp"
-#include "drivers/cia402/mode.hpp"
 #include "drivers/cia402/objects.hpp"
 #include "drivers/sim/sim_objects.hpp"
 

@@ -1,10 +1,9 @@
 // The SDO server of a simulated drive: expedited transfers, and what may be written when.
-#include <algorithm>
-#include <array>
+#include <chrono>
+#include <optional>
 
 #include "drivers/canopen/cob_id.hpp"
 #include "drivers/canopen/communication_objects.hpp"
-#include "drivers/cia402/mode.hpp"
 #include "drivers/cia402/objects.hpp"
 #include "drivers/sim/sim_drive.hpp"
 #include "drivers/sim/sim_objects.hpp"

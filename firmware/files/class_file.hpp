@@ -17,8 +17,8 @@ struct ClassFile {
 /// The built-in table, every class listed.
 [[nodiscard]] ClassFile built_in_classes();
 
-/// [[class]] entries: name, colour ([r, g, b] or "#rrggbb"), optional obstacle, occluder, restricted = ["robot", "person"];
-/// what is left out is as built in. Refuses a class twice and two classes of one colour.
+/// [[class]] entries: name, colour ([r, g, b] or "#rrggbb"), optional obstacle, occluder, restricted = ["robot",
+/// "person"]; what is left out is as built in. Refuses a class twice and two classes of one colour.
 [[nodiscard]] Result<ClassFile> read_classes(const std::string& path);
 
 /// "#d6d2ca"

@@ -94,7 +94,8 @@ class Reading {
   }
 
   double number(const Json* value, const std::string& name, double least, double most) {
-    const bool right = value != nullptr && value->is_number() && value->get<double>() >= least && value->get<double>() <= most;
+    const bool right =
+        value != nullptr && value->is_number() && value->get<double>() >= least && value->get<double>() <= most;
     if (!right) {
       const std::string found = value != nullptr && value->is_number() ? shortest(value->get<double>()) : "this";
       fault(name, found + " will not do; expected a number, " + shortest(least) + " to " + shortest(most));

@@ -43,9 +43,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 31> kUnits =
     {"mbps", "megabits a second"},
 }};
 
-std::string_view stem_of(std::string_view key) {
-  return unit_of(key).empty() ? key : key.substr(0, key.rfind('_'));
-}
+std::string_view stem_of(std::string_view key) { return unit_of(key).empty() ? key : key.substr(0, key.rfind('_')); }
 
 /// Least number of letters to insert, drop, change or swap with a neighbour.
 std::size_t edits_between(std::string_view a, std::string_view b) {

@@ -50,16 +50,16 @@ Result<std::vector<SemanticClass>> classify(const ColourImage& image, const Clas
   SemanticClass run_class{};
   for (int row = image.height_px - 1; row >= 0; --row) {
     for (int column = 0; column < image.width_px; ++column) {
-      const std::size_t i = static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width_px) +
-                            static_cast<std::size_t>(column);
+      const std::size_t i =
+          static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width_px) + static_cast<std::size_t>(column);
       const Colour colour = image.pixels[i];
       if (run_colour != colour) {
         const auto found = class_of.find(packed(colour));
         if (found == class_of.end()) {
           return Error{map.image_path + ": pixel in column " + std::to_string(column) + ", row " +
                        std::to_string(image.height_px - 1 - row) + " from the top (" +
-                       shortest((column + 0.5) * map.resolution_m) + " m, " +
-                       shortest((row + 0.5) * map.resolution_m) + " m) is " + hex(colour) +
+                       shortest((column + 0.5) * map.resolution_m) + " m, " + shortest((row + 0.5) * map.resolution_m) +
+                       " m) is " + hex(colour) +
                        ", the colour of no class; expected colours of the class table, the nearest is " +
                        nearest_class(colour, file)};
         }

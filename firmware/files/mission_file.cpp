@@ -135,8 +135,7 @@ AgentSpec read_agent(const TomlValue& table, const std::string& mission_path) {
   agent.sight_radius_m = table.required("sight_radius_m").number({0.1, 1000.0, "metres"});
   if (agent.kind == AgentKind::kRobot) {
     agent.robot_path = beside(mission_path, table.required("robot").text());
-    agent.heading_rad =
-        table.optional("heading_deg").number({-360.0, 360.0, "degrees"}) * std::numbers::pi / 180.0;
+    agent.heading_rad = table.optional("heading_deg").number({-360.0, 360.0, "degrees"}) * std::numbers::pi / 180.0;
     table.refuse("motion", "belongs to a person; a robot moves by its drives");
     table.refuse("footprint_radius_m", "belongs to a person; a robot's footprint is in its robot file");
   } else {

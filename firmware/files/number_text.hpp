@@ -1,14 +1,19 @@
-// Numbers in messages and files: the shortest text that reads back as the same number.
+// Numbers in messages: the shortest text that reads back as the same number, without an exponent where people would not
+// write one.
 #pragma once
 
 #include <charconv>
+#include <cmath>
 #include <string>
 
 namespace ivo::firmware {
 
 [[nodiscard]] inline std::string shortest(double value) {
   char text[32];
-  const auto [end, status] = std::to_chars(text, text + sizeof text, value);
+  const double size = std::abs(value);
+  const bool plain = value == 0 || (size >= 1e-7 && size < 1e15);
+  const auto format = plain ? std::chars_format::fixed : std::chars_format::scientific;
+  const auto [end, status] = std::to_chars(text, text + sizeof text, value, format);
   return {text, end};
 }
 

@@ -32,7 +32,8 @@ struct PicturedFind {
 
 struct SearchPicture {
   const MapFile* map = nullptr;  ///< must be given
-  std::span<const double> mass;  ///< by cell, the bottom row first; empty: none. Else columns x rows, finite, not negative
+  std::span<const double>
+      mass;  ///< by cell, the bottom row first; empty: none. Else columns x rows, finite, not negative
   int columns = 0;
   int rows = 0;
   double cell_m = 0.0;
@@ -44,8 +45,8 @@ struct SearchPicture {
 };
 
 /// The picture as a PNG, 1600 pixels on its long side, legend beside the map or below it. Map classes are shown in the
-/// product's own colours, whatever the image's were. Same picture and same fonts, same bytes. Text is UTF-8, set in DejaVu
-/// Sans. Cost: some hundred milliseconds, memory for the map's pixels and the picture's. Fails when cairo does.
+/// product's own colours, whatever the image's were. Same picture and same fonts, same bytes. Text is UTF-8, set in
+/// DejaVu Sans. Cost: some hundred milliseconds, memory for the map's pixels and the picture's. Fails when cairo does.
 [[nodiscard]] Result<std::string> picture_png(const SearchPicture& picture);
 
 /// The same into a file, at once (text_file.hpp).

@@ -11,11 +11,11 @@ namespace ivo::firmware {
 namespace {
 
 constexpr double kLongSide = 1600.0;
-constexpr double kLeft = 66.0;     // room for the numbers along the left edge
+constexpr double kLeft = 66.0;  // room for the numbers along the left edge
 constexpr double kRight = 40.0;
-constexpr double kTop = 118.0;     // title and figures
-constexpr double kBottom = 60.0;   // numbers along the bottom edge
-constexpr double kPanel = 350.0;   // legend on the right
+constexpr double kTop = 118.0;    // title and figures
+constexpr double kBottom = 60.0;  // numbers along the bottom edge
+constexpr double kPanel = 350.0;  // legend on the right
 constexpr double kGap = 44.0;
 constexpr double kLeastWidth = 900.0;
 constexpr Tint kInk = {0.30, 0.30, 0.32};
@@ -48,9 +48,9 @@ LegendBlock what(const SearchPicture& picture, double scale_m) {
     block.rows.push_back({Symbol::kObject, kInk, "object"});
   }
   if (picture.find) {
-    block.rows.push_back(
-        {Symbol::kSight, agent_tint(picture.agents, picture.find->agent),
-         "found by " + picture.agents[picture.find->agent].name + ", sight " + shortest(picture.find->sight_radius_m) + " m"});
+    block.rows.push_back({Symbol::kSight, agent_tint(picture.agents, picture.find->agent),
+                          "found by " + picture.agents[picture.find->agent].name + ", sight " +
+                              shortest(picture.find->sight_radius_m) + " m"});
   }
   block.rows.push_back({Symbol::kScale, kInk, shortest(scale_m) + " m"});
   return block;
@@ -115,7 +115,7 @@ PictureLayout lay_out(const SearchPicture& picture) {
   layout.map = {kLeft, kTop, width_m * layout.px_per_m, height_m * layout.px_per_m};
   const double width = std::max(layout.map.width + around_x, kLeastWidth);
   double height = layout.map.height + around_y;
-  layout.title = {kLeft, 34.0, width - kLeft - kRight, kTop - 34.0};
+  layout.title = {kLeft, 34.0, width - kLeft - kRight, kTop - 46.0};
   // The scale bar fits in the legend's symbols at twice their width.
   layout.scale_m = round_length(2 * PictureLayout::kSymbolWidth / layout.px_per_m);
   layout.grid_m = round_length(170.0 / layout.px_per_m);

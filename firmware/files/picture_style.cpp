@@ -21,6 +21,8 @@ double distance(Point a, Point b) { return std::hypot(b.x_m - a.x_m, b.y_m - a.y
 
 }  // namespace
 
+Tint faded(Tint tint, double alpha) { return {tint.r, tint.g, tint.b, alpha}; }
+
 Tint mixed(Tint a, Tint b, double share_of_b) {
   const auto mix = [&](double u, double v) { return u + (v - u) * share_of_b; };
   return {mix(a.r, b.r), mix(a.g, b.g), mix(a.b, b.b), mix(a.alpha, b.alpha)};

@@ -20,6 +20,9 @@ struct Tint {
   double alpha = 1.0;
 };
 
+/// The same colour, less opaque.
+[[nodiscard]] Tint faded(Tint tint, double alpha);
+
 [[nodiscard]] Tint mixed(Tint a, Tint b, double share_of_b);
 
 /// The robot red, the first person green, others in colours of their own.

@@ -24,8 +24,7 @@ bool meet(Point a, Point b, Point c, Point d) {
 }
 
 bool on_one_line(const Polygon& polygon) {
-  return std::all_of(polygon.begin(), polygon.end(),
-                     [&](Point p) { return turn(polygon[0], polygon[1], p) == 0; });
+  return std::all_of(polygon.begin(), polygon.end(), [&](Point p) { return turn(polygon[0], polygon[1], p) == 0; });
 }
 
 }  // namespace

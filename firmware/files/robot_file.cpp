@@ -34,7 +34,8 @@ MotionLimits read_limits(const TomlValue& table) {
   const TomlValue stop = table.required("stop_decel_mps2");
   limits.stop_decel_mps2 = stop.number({0.05, 20.0, "metres a second squared"});
   if (stop.present() && limits.stop_decel_mps2 < limits.max_accel_mps2) {
-    stop.complain(shortest(limits.stop_decel_mps2) + " is gentler than ordinary braking; expected at least max_accel_mps2, " +
+    stop.complain(shortest(limits.stop_decel_mps2) +
+                  " is gentler than ordinary braking; expected at least max_accel_mps2, " +
                   shortest(limits.max_accel_mps2));
   }
   return limits;

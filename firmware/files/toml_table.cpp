@@ -106,9 +106,9 @@ TomlValue TomlValue::required(std::string_view key) const {
   TomlValue value = optional(key);
   if (is_table() && !value.present()) {
     const std::string_view unit = unit_of(key);
-    reading_->add_fault(true, value.path_,
-                        unit.empty() ? "missing; it must be given"
-                                     : "missing; it must be given, in " + std::string(unit));
+    reading_->add_fault(
+        true, value.path_,
+        unit.empty() ? "missing; it must be given" : "missing; it must be given, in " + std::string(unit));
   }
   return value;
 }
@@ -213,7 +213,8 @@ std::vector<TomlValue> TomlValue::items(std::size_t least, std::size_t most, std
   if (node_ == nullptr) {
     return {};
   }
-  const std::string count = least == most ? std::to_string(least) : std::to_string(least) + " to " + std::to_string(most);
+  const std::string count =
+      least == most ? std::to_string(least) : std::to_string(least) + " to " + std::to_string(most);
   const std::string expected = "a list of " + count + " " + std::string(what);
   if (!is_list()) {
     complain_of_kind(expected);
@@ -267,8 +268,7 @@ Result<void> TomlFile::finish() const {
     for (const TomlNode& child : asked.table->children) {
       if (std::find(asked.keys.begin(), asked.keys.end(), child.key) == asked.keys.end()) {
         faults.push_back({false, child.line,
-                          reading_->lines.at(joined(path, child.key),
-                                             advice_on_unknown_key(child.key, asked.keys))});
+                          reading_->lines.at(joined(path, child.key), advice_on_unknown_key(child.key, asked.keys))});
       }
     }
   }

@@ -52,7 +52,8 @@ class TomlValue {
   [[nodiscard]] std::size_t choice(std::initializer_list<std::string_view> words, std::size_t fallback = 0) const;
   /// [x, y], both in `range`.
   [[nodiscard]] Point point(const Range& range) const;
-  /// Elements of a list of `least` to `most`; empty when there is trouble or no value. `what` names them in a complaint.
+  /// Elements of a list of `least` to `most`; empty when there is trouble or no value. `what` names them in a
+  /// complaint.
   [[nodiscard]] std::vector<TomlValue> items(std::size_t least, std::size_t most, std::string_view what) const;
 
   /// A fault of this value, in words of the caller: "what was wrong; what is expected".

@@ -40,8 +40,11 @@ bool PathFollower::start(std::span<const Point> path, const Pose& pose) noexcept
 }
 
 PathFollower::Output PathFollower::update(const Input& input) noexcept {
-  if (!progress_.has_path() || !finite(input.pose)) {
+  if (!progress_.has_path()) {
     return {};
+  }
+  if (!finite(input.pose)) {
+    return {{}, progress_.distance_left_m(), progress_.cross_track_m(), reached_};
   }
   progress_.update(input.pose.point());
   Input known = input;

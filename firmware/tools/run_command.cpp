@@ -118,17 +118,19 @@ class Run {
     const LoopStatus& status = loop_.status();
     const RunOutcome outcome = outcome_of(view_, status, world_.stalled());
     const planner::Plan* plan = status.plan_ready ? &loop_.plan() : nullptr;
-    terminal_.show_result(outcome, status, plan, world_.lapses());
-    Result<void> written = write("report.json", report_json(report_document(view_, plan, status, outcome)));
-    if (written && plan != nullptr) {
-      written = write_picture(path_of("search.png"), picture_of(view_, *plan, status, outcome, log_.tracks()));
-      terminal_.show_file(path_of("search.png"));
+    if (plan != nullptr) {
+      show_plan_once();
     }
-    if (!written) {
-      (void)std::fprintf(stderr, "ivo: %s\n", written.error().message.c_str());
-      return kFaultOrStop;
+    terminal_.show_result(outcome, status, plan, world_.lapses());
+    write("report.json", report_json(report_document(view_, plan, status, outcome)));
+    if (plan != nullptr) {
+      const Result<std::string> picture = picture_png(picture_of(view_, *plan, status, outcome, log_.tracks()));
+      picture ? write("search.png", picture.value()) : note(picture.error());
     }
     terminal_.show_file(path_of("events.jsonl"));
+    if (write_failed_) {
+      return kFaultOrStop;
+    }
     switch (outcome.end) {
       case RunEnd::kFound:
       case RunEnd::kPathsEnded:
@@ -198,10 +200,7 @@ class Run {
     }
     plan_shown_ = true;
     terminal_.show_plan(loop_.plan());
-    if (write("plan.json", plan_json(plan_document(view_, loop_.plan())))) {
-      return;
-    }
-    (void)loop_.command(OperatorCommand::kStop);
+    write("plan.json", plan_json(plan_document(view_, loop_.plan())));
   }
 
   bool seek_consent(int wait_ms) {
@@ -226,13 +225,14 @@ class Run {
     return true;
   }
 
-  Result<void> write(const char* name, const std::string& contents) {
-    Result<void> written = write_file(path_of(name), contents);
-    if (written) {
-      terminal_.end_line();
-      terminal_.show_file(path_of(name));
-    }
-    return written;
+  void write(const char* name, const std::string& contents) {
+    const Result<void> written = write_file(path_of(name), contents);
+    written ? terminal_.show_file(path_of(name)) : note(written.error());
+  }
+
+  void note(const Error& error) {
+    write_failed_ = true;
+    (void)std::fprintf(stderr, "ivo: %s\n", error.message.c_str());
   }
 
   const RunOptions& options_;
@@ -247,6 +247,7 @@ class Run {
   bool plan_shown_ = false;
   bool consent_sent_ = false;
   bool stop_sent_ = false;
+  bool write_failed_ = false;
 };
 
 }  // namespace

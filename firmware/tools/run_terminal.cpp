@@ -77,10 +77,27 @@ void RunTerminal::show_mission(const std::string& bus) const {
       say("note", mission.agents[m].name + " has no probability of its own left and searches the whole prior");
     }
   }
+  const double robot_mps = run_.inputs.robot.limits.max_speed_mps;
+  if (const AgentSpec& robot = mission.agents.front(); robot.speed_mps > robot_mps) {
+    say("note", robot.name + format(" drives at most %.2f m/s; the plan assumes %.2f m/s", robot_mps, robot.speed_mps));
+  }
   say("bus", bus);
 }
 
+// A person reads no faster, and a search at full speed would spend its time drawing.
+bool RunTerminal::time_to_draw() {
+  const auto now = std::chrono::steady_clock::now();
+  if (now - drawn_ < std::chrono::milliseconds(50)) {
+    return false;
+  }
+  drawn_ = now;
+  return true;
+}
+
 void RunTerminal::overwrite(const std::string& line) {
+  if (!time_to_draw()) {
+    return;
+  }
   (void)std::printf("\r\033[K%s", line.c_str());
   (void)std::fflush(stdout);
   line_open_ = true;

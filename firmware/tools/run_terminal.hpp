@@ -1,6 +1,7 @@
 // The terminal of a run: what is going on, both plans, the question, the result. Outside the loop.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <string>
 
@@ -25,17 +26,19 @@ class RunTerminal {
   void end_line();
 
  private:
+  [[nodiscard]] bool time_to_draw();
   void overwrite(const std::string& line);
 
   const RunView& run_;
   bool live_;  // standard output is a terminal
   bool line_open_ = false;
   int tenth_shown_ = -1;
+  std::chrono::steady_clock::time_point drawn_{};
 };
 
 enum class Answer : std::uint8_t { kNone, kYes, kNo };
 
-/// Asks once whether to start; the answer comes from ask_again().
+/// Asks once whether to start; the answer comes from poll().
 class ConsentQuestion {
  public:
   /// Whether there is a terminal at which somebody can answer.

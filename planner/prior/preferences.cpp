@@ -1,5 +1,6 @@
 #include "planner/prior/preferences.hpp"
 
+#include <algorithm>
 #include <bit>
 
 namespace ivo::planner {
@@ -81,6 +82,9 @@ Refusal divide(const Cells& cells, const SightTable& sight, const PreferredAreas
   const auto all = static_cast<AgentSet>((1U << static_cast<unsigned>(belief.agents)) - 1);
   const AgentSet takers_of_the_rest = stated == all ? all : static_cast<AgentSet>(all & ~stated);
   std::array<double, limits::kAgents> sums{};
+  for (int m = 0; m < belief.agents; ++m) {
+    std::fill_n(belief.sub_mass[index(m)].begin(), belief.cells, 0.0);  // of an earlier mission
+  }
   for (const Cell c : belief.cells_with_mass()) {
     AgentSet takers = 0;
     for (int m = 0; m < belief.agents; ++m) {

@@ -148,8 +148,11 @@ double Ant::seconds_a_point(int agent, Edge e) const noexcept {
   return world_.graph.length_m(e) / (world_.sight.points(e) * world_.speeds_mps[index(agent)]);
 }
 
-// The time of the edge's last sight point to the last bit, so that a path that ends there does not seem to enter the next edge.
-double Ant::seconds_along(int agent, Edge e) const noexcept { return seconds_a_point(agent, e) * world_.sight.points(e); }
+// The time of the edge's last sight point to the last bit, so that a path that ends there does not seem to enter the
+// next edge.
+double Ant::seconds_along(int agent, Edge e) const noexcept {
+  return seconds_a_point(agent, e) * world_.sight.points(e);
+}
 
 int Ant::move(int rows) noexcept {
   const Edge e = route_.back();

@@ -64,8 +64,9 @@ bool intersect(const Capsule& capsule, const Box& box) noexcept {
 double distance_to_interval(double x, double low, double high) noexcept { return std::max({low - x, x - high, 0.0}); }
 
 bool inside_border(const SegmentedMap& map, Point p, double margin_m) noexcept {
-  return p.x_m >= margin_m && p.y_m >= margin_m && p.x_m <= map.width_m() - margin_m &&
-         p.y_m <= map.height_m() - margin_m;
+  constexpr double kRounding = 1e-9;  // a disc that touches the border is inside
+  const double margin = margin_m - kRounding;
+  return p.x_m >= margin && p.y_m >= margin && p.x_m <= map.width_m() - margin && p.y_m <= map.height_m() - margin;
 }
 
 // The x that the capsule may reach between the lines y = low and y = high: the segment there, widened by the radius.

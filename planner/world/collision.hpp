@@ -18,9 +18,10 @@ using ClassSet = std::uint16_t;
 /// farther; 0 inside. Exact. Cost: the pixels within `limit_m`.
 [[nodiscard]] double clearance(const SegmentedMap& map, ClassSet blocked, Point p, double limit_m) noexcept;
 
-/// True when a disc of `radius_m` swept along the segment from `a` to `b` touches no pixel of a class in `blocked` and
-/// stays inside the border. Judged by libccd on the swept disc (a capsule) against runs of pixels; no heap. Cost: the
-/// pixels in the capsule's bounding box, and a query a run near it.
+/// True when a disc of `radius_m` swept along the segment from `a` to `b` overlaps no pixel of a class in `blocked` and
+/// stays inside the border; touching is free, and libccd may take an overlap below 0.1 mm for a touch. Judged on the
+/// swept disc (a capsule) against runs of pixels; no heap. Cost: the pixels in the capsule's bounding box, and a query
+/// a run near it.
 [[nodiscard]] bool swept_disc_is_free(const SegmentedMap& map, ClassSet blocked, Point a, Point b,
                                       double radius_m) noexcept;
 

@@ -1,11 +1,16 @@
 // A robot's four simulated drives, a bus, a clock and the group under test, cycle by cycle in one process.
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <algorithm>
 #include <array>
-#include <functional>
+#include <chrono>
+#include <cstdint>
 #include <vector>
 
 #include "config/rates.hpp"
+#include "drivers/canopen/little_endian.hpp"
 #include "drivers/drive_group.hpp"
 #include "drivers/sim/sim_drives.hpp"
 #include "hal/sim/manual_clock.hpp"
@@ -114,5 +119,35 @@ class Rig {
     log.insert(log.end(), frames.begin(), frames.begin() + static_cast<std::ptrdiff_t>(count));
   }
 };
+
+inline constexpr std::array<Wheel, kWheels> kAll{Wheel::kFrontLeft, Wheel::kFrontRight, Wheel::kRearLeft,
+                                                 Wheel::kRearRight};
+
+inline bool any_enabled(Rig& rig) {
+  return std::any_of(kAll.begin(), kAll.end(), [&](Wheel wheel) {
+    return rig.drives.drive(wheel).power_state() == cia402::PowerState::kOperationEnabled;
+  });
+}
+
+inline bool all_at_rest(Rig& rig) {
+  return std::all_of(kAll.begin(), kAll.end(), [&](Wheel wheel) { return rig.drives.drive(wheel).motion().at_rest(); });
+}
+
+inline std::uint16_t controlword_of(const hal::CanFrame& frame) {
+  return static_cast<std::uint16_t>(frame.data[0] | frame.data[1] << 8);
+}
+
+inline std::int32_t target_of(const hal::CanFrame& frame) {
+  return static_cast<std::int32_t>(load<std::uint32_t>(std::span<const std::uint8_t>(frame.data).subspan(2)));
+}
+
+/// All four got zero and quick stop (or voltage off) in the last cycle.
+inline void expect_stopped_command(const Rig& rig) {
+  for (std::uint8_t node = 1; node <= 4; ++node) {
+    const hal::CanFrame command = rig.last_command(node);
+    EXPECT_EQ(target_of(command), 0) << "node " << int{node};
+    EXPECT_TRUE(controlword_of(command) == 0x02 || controlword_of(command) == 0x00) << "node " << int{node};
+  }
+}
 
 }  // namespace ivo::drivers

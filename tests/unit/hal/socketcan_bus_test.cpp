@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 #include <linux/can.h>
 #include <linux/can/error.h>
+#include <linux/can/raw.h>
+#include <net/if.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
 #include <array>
 #include <chrono>
@@ -131,6 +134,48 @@ TEST_F(SocketCanBusOnAWire, WorksOnWhenMoved) {
   put(can_frame{});
   std::array<CanFrame, 8> frames;
   EXPECT_EQ(moved.receive(frames), 1U);
+}
+
+/// A raw socket on vcan0 that sends what it likes, beside the bus under test.
+class SocketCanBusOnVcan : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!bus_.ok()) {
+      GTEST_SKIP() << bus_.error().message;
+    }
+    sockaddr_can address{};
+    address.can_family = AF_CAN;
+    address.can_ifindex = static_cast<int>(if_nametoindex("vcan0"));
+    ASSERT_EQ(bind(stranger_.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+  }
+  void put(canid_t id) {
+    can_frame frame{};
+    frame.can_id = id;
+    frame.can_dlc = 8;
+    ASSERT_EQ(write(stranger_.get(), &frame, sizeof frame), static_cast<ssize_t>(sizeof frame));
+  }
+
+  Result<SocketCanBus> bus_ = SocketCanBus::open("vcan0");
+  FileDescriptor stranger_{socket(AF_CAN, SOCK_RAW, CAN_RAW)};
+  std::array<CanFrame, 8> frames_;
+};
+
+TEST_F(SocketCanBusOnVcan, HearsPlainDataFramesOnly) {
+  put(0x181 | CAN_EFF_FLAG);
+  put(0x181 | CAN_RTR_FLAG);
+  EXPECT_FALSE(bus_.value().wait_readable(Duration::zero())) << "the kernel's filter keeps them out";
+  put(0x181);
+  EXPECT_EQ(bus_.value().receive(frames_), 1U);
+  EXPECT_EQ(frames_[0].id, 0x181);
+}
+
+TEST_F(SocketCanBusOnVcan, LearnsOfBusOffAndRestartFromErrorFrames) {
+  put(CAN_ERR_FLAG | CAN_ERR_BUSOFF);
+  EXPECT_EQ(bus_.value().receive(frames_), 0U);
+  EXPECT_EQ(bus_.value().state(), BusState::kOff);
+  put(CAN_ERR_FLAG | CAN_ERR_RESTARTED);
+  EXPECT_EQ(bus_.value().receive(frames_), 0U);
+  EXPECT_EQ(bus_.value().state(), BusState::kActive);
 }
 
 TEST(ErrorFrame, BusOffOutweighsWhatElseTheFrameSays) {

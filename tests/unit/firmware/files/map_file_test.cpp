@@ -63,7 +63,8 @@ TEST(MapFile, RefusesAPixelOfNoClassAndSaysWhereAndWhatIsNearest) {
 TEST(MapFile, RefusesTheColourOfAClassThatItsTableDoesNotList) {
   const ScratchFolder folder;
   folder.put("a.png", written_png(1, 3, {}, kThreeRows));
-  folder.put("c.toml", "[[class]]\nname = 'pavement'\ncolour = '#d6d2ca'\n[[class]]\nname = 'road'\ncolour = '#787a80'\n");
+  folder.put("c.toml",
+             "[[class]]\nname = 'pavement'\ncolour = '#d6d2ca'\n[[class]]\nname = 'road'\ncolour = '#787a80'\n");
   EXPECT_EQ(message_of(read_map(folder.put("a.toml", "image = 'a.png'\nresolution_m = 0.5\nclasses = 'c.toml'\n"))),
             folder.path("a.png") +
                 ": pixel in column 0, row 1 from the top (0.25 m, 0.75 m) is #94c070, the colour of no class; expected "
@@ -98,9 +99,10 @@ TEST(ClassFile, TakesWhatIsLeftOutFromTheBuiltInTable) {
 }
 
 TEST(ClassFile, RefusesAClassThatIsNone) {
-  EXPECT_EQ(complaint_about_classes("[[class]]\nname = 'lava'\ncolour = [1, 2, 3]\n"),
-            "c.toml:2: class[0].name: \"lava\" is no class; expected one of pavement, road, crossing, parking, cycle lane, "
-            "grass, soil, building, wall, tree, shrub, street furniture, water, stairs");
+  EXPECT_EQ(
+      complaint_about_classes("[[class]]\nname = 'lava'\ncolour = [1, 2, 3]\n"),
+      "c.toml:2: class[0].name: \"lava\" is no class; expected one of pavement, road, crossing, parking, cycle lane, "
+      "grass, soil, building, wall, tree, shrub, street furniture, water, stairs");
 }
 
 TEST(ClassFile, RefusesAClassTwice) {
@@ -148,8 +150,8 @@ class = [
   { name = "pavement", colour = [155, 155, 155] },
 ]
 )");
-  const auto map = read_map(
-      folder.put("dubai.toml", "image = \"" + mask + "\"\nresolution_m = 0.4\nclasses = \"classes.toml\"\n"));
+  const auto map =
+      read_map(folder.put("dubai.toml", "image = \"" + mask + "\"\nresolution_m = 0.4\nclasses = \"classes.toml\"\n"));
   ASSERT_TRUE(map.ok()) << map.error().message;
   EXPECT_EQ(map.value().width_px, 797);
   EXPECT_EQ(map.value().height_px, 644);

@@ -12,29 +12,29 @@ namespace ivo::firmware {
 namespace {
 
 const std::string kMission =
-    "format = 1\n"                   // 1
-    "map = '../maps/yard.toml'\n"    // 2
-    "[planner]\n"                    // 3
-    "cell_m = 0.5\n"                 // 4
-    "[[agent]]\n"                    // 5
-    "name = 'IVO'\n"                 // 6
-    "kind = 'robot'\n"               // 7
-    "robot = '../robots/r.toml'\n"   // 8
-    "start_m = [1, 2]\n"             // 9
-    "heading_deg = 180\n"            // 10
-    "speed_mps = 0.4\n"              // 11
-    "sight_radius_m = 2\n"           // 12
-    "[[agent]]\n"                    // 13
-    "name = 'Ana'\n"                 // 14
-    "kind = 'person'\n"              // 15
-    "motion = 'reported'\n"          // 16
-    "start_m = [3, 4]\n"             // 17
-    "speed_mps = 0.6\n"              // 18
-    "sight_radius_m = 3\n"           // 19
-    "preferred = [\n"                // 20
-    "{ rectangle_m = [1, 2, 3, 5] },\n"               // 21
-    "{ polygon_m = [[0, 0], [4, 0], [2, 3]] },\n"     // 22
-    "]\n";                           // 23
+    "format = 1\n"                                 // 1
+    "map = '../maps/yard.toml'\n"                  // 2
+    "[planner]\n"                                  // 3
+    "cell_m = 0.5\n"                               // 4
+    "[[agent]]\n"                                  // 5
+    "name = 'IVO'\n"                               // 6
+    "kind = 'robot'\n"                             // 7
+    "robot = '../robots/r.toml'\n"                 // 8
+    "start_m = [1, 2]\n"                           // 9
+    "heading_deg = 180\n"                          // 10
+    "speed_mps = 0.4\n"                            // 11
+    "sight_radius_m = 2\n"                         // 12
+    "[[agent]]\n"                                  // 13
+    "name = 'Ana'\n"                               // 14
+    "kind = 'person'\n"                            // 15
+    "motion = 'reported'\n"                        // 16
+    "start_m = [3, 4]\n"                           // 17
+    "speed_mps = 0.6\n"                            // 18
+    "sight_radius_m = 3\n"                         // 19
+    "preferred = [\n"                              // 20
+    "{ rectangle_m = [1, 2, 3, 5] },\n"            // 21
+    "{ polygon_m = [[0, 0], [4, 0], [2, 3]] },\n"  // 22
+    "]\n";                                         // 23
 
 Result<MissionFile> mission_of(const std::string& text) {
   const ScratchFolder folder;
@@ -90,7 +90,8 @@ TEST(MissionFile, ReadsEveryFieldAndTheDefaults) {
 TEST(MissionFile, ReadsEveryKindOfObjectAndPrior) {
   EXPECT_TRUE(std::holds_alternative<ObjectUnknown>(
       mission_of(replaced(kMission, "[planner]", "object = 'unknown'\n[planner]")).value().mission.object));
-  EXPECT_EQ(std::get<Point>(mission_of(replaced(kMission, "[planner]", "object = [5, 6.5]\n[planner]")).value().mission.object),
+  EXPECT_EQ(std::get<Point>(
+                mission_of(replaced(kMission, "[planner]", "object = [5, 6.5]\n[planner]")).value().mission.object),
             (Point{5, 6.5}));
   const auto gaussians = mission_of(replaced(
       kMission, "[planner]", "prior = { gaussians = [ { mean_m = [1, 2], sigma_m = 3, weight = 4 } ] }\n[planner]"));
@@ -135,7 +136,8 @@ TEST(MissionFile, RemembersLinesForComplaintsThatComeLater) {
 }
 
 TEST(MissionFile, RefusesAnotherFormat) {
-  EXPECT_EQ(complaint("format = 1", "format = 2"), "m.toml:1: format: is another version of this file's form; expected 1");
+  EXPECT_EQ(complaint("format = 1", "format = 2"),
+            "m.toml:1: format: is another version of this file's form; expected 1");
   EXPECT_EQ(complaint("format = 1", ""), "m.toml:1: format: missing; it must be given");
 }
 
@@ -155,7 +157,7 @@ TEST(MissionFile, RefusesValuesOutOfRange) {
   EXPECT_EQ(complaint("cell_m = 0.5", "beta = 1.5"),
             "m.toml:4: planner.beta: 1.5 is a number; expected a whole number, 0 to 12");
   EXPECT_EQ(complaint("cell_m = 0.5", "rho = nan"),
-            "m.toml:4: planner.rho: nan is not a finite number; expected a number, 1e-06 to 1");
+            "m.toml:4: planner.rho: nan is not a finite number; expected a number, 0.000001 to 1");
   EXPECT_EQ(complaint("[planner]", "seed = -1\n[planner]"),
             "m.toml:3: seed: -1 is out of range; expected 0 to 9223372036854775807");
 }
@@ -214,10 +216,12 @@ TEST(MissionFile, RefusesObjectsThatAreNone) {
 
 TEST(MissionFile, RefusesPriorsThatAreNone) {
   const std::string none =
-      "m.toml:3: prior: is no prior; expected \"uniform\", { gaussians = [...] } or { image = \"...\", resolution_m = ... }";
+      "m.toml:3: prior: is no prior; expected \"uniform\", { gaussians = [...] } or { image = \"...\", resolution_m = "
+      "... }";
   EXPECT_EQ(complaint_about_prior("'flat'"), none);
   EXPECT_EQ(complaint_about_prior("7"), none);
-  EXPECT_EQ(complaint_about_prior("{}"), "m.toml:3: prior: holds no prior; expected gaussians, or image and resolution_m");
+  EXPECT_EQ(complaint_about_prior("{}"),
+            "m.toml:3: prior: holds no prior; expected gaussians, or image and resolution_m");
   EXPECT_EQ(complaint_about_prior("{ image = 'x.png' }"),
             "m.toml:3: prior.resolution_m: missing; it must be given, in metres");
   EXPECT_EQ(complaint_about_prior("{ gaussians = [] }"),
@@ -225,18 +229,20 @@ TEST(MissionFile, RefusesPriorsThatAreNone) {
   EXPECT_EQ(complaint_about_prior("{ gaussians = [ { mean_m = [1, 1], sigma_m = 0 } ] }"),
             "m.toml:3: prior.gaussians[0].sigma_m: 0 is out of range; expected 0.01 to 10000 (metres)");
   EXPECT_EQ(complaint_about_prior("{ gaussians = [ { mean_m = [1, 1], sigma_m = 1, weight = 0 } ] }"),
-            "m.toml:3: prior.gaussians[0].weight: 0 is out of range; expected 1e-06 to 1000000");
+            "m.toml:3: prior.gaussians[0].weight: 0 is out of range; expected 0.000001 to 1000000");
   EXPECT_EQ(complaint_about_prior("{ gaussians = [ { mean_m = [1, 1], sigma_m = 1 } ], image = 'x.png' }"),
             "m.toml:3: prior.image: a second prior beside gaussians; expected one of the two");
 }
 
 TEST(MissionFile, RefusesRectanglesWithoutArea) {
   const std::string empty =
-      "m.toml:21: agent[1].preferred[0].rectangle_m: covers no area; expected [x0, y0, x1, y1] with x0 < x1 and y0 < y1";
+      "m.toml:21: agent[1].preferred[0].rectangle_m: covers no area; expected [x0, y0, x1, y1] with x0 < x1 and y0 < "
+      "y1";
   EXPECT_EQ(complaint("[1, 2, 3, 5]", "[3, 2, 1, 5]"), empty);
   EXPECT_EQ(complaint("[1, 2, 3, 5]", "[1, 2, 3, 2]"), empty);
-  EXPECT_EQ(complaint("[1, 2, 3, 5]", "[1, 2, 3]"),
-            "m.toml:21: agent[1].preferred[0].rectangle_m: has 3 elements; expected a list of 4 numbers, [x0, y0, x1, y1]");
+  EXPECT_EQ(
+      complaint("[1, 2, 3, 5]", "[1, 2, 3]"),
+      "m.toml:21: agent[1].preferred[0].rectangle_m: has 3 elements; expected a list of 4 numbers, [x0, y0, x1, y1]");
 }
 
 TEST(MissionFile, RefusesPolygonsThatAreNotSimple) {
@@ -258,13 +264,16 @@ TEST(MissionFile, RefusesPolygonsThatAreNotSimple) {
 }
 
 TEST(MissionFile, AcceptsConcavePolygonsOfEitherTurn) {
-  EXPECT_TRUE(mission_of(replaced(kMission, "[[0, 0], [4, 0], [2, 3]]", "[[0, 0], [4, 0], [4, 4], [2, 1], [0, 4]]")).ok());
-  EXPECT_TRUE(mission_of(replaced(kMission, "[[0, 0], [4, 0], [2, 3]]", "[[0, 4], [2, 1], [4, 4], [4, 0], [0, 0]]")).ok());
+  EXPECT_TRUE(
+      mission_of(replaced(kMission, "[[0, 0], [4, 0], [2, 3]]", "[[0, 0], [4, 0], [4, 4], [2, 1], [0, 4]]")).ok());
+  EXPECT_TRUE(
+      mission_of(replaced(kMission, "[[0, 0], [4, 0], [2, 3]]", "[[0, 4], [2, 1], [4, 4], [4, 0], [0, 0]]")).ok());
 }
 
 TEST(MissionFile, RefusesAreasThatAreNeitherOrBoth) {
   const std::string neither =
-      "m.toml:21: agent[1].preferred[0]: is no area; expected either rectangle_m = [x0, y0, x1, y1] or polygon_m = [[x, y], "
+      "m.toml:21: agent[1].preferred[0]: is no area; expected either rectangle_m = [x0, y0, x1, y1] or polygon_m = "
+      "[[x, y], "
       "...]";
   EXPECT_EQ(complaint("{ rectangle_m = [1, 2, 3, 5] }", "{}"), neither);
   EXPECT_EQ(complaint("rectangle_m = [1, 2, 3, 5]", "rectangle_m = [1, 2, 3, 5], polygon_m = [[0, 0], [4, 0], [2, 3]]"),

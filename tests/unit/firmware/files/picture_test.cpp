@@ -10,6 +10,10 @@
 #include "tests/unit/firmware/files/complaint.hpp"
 #include "tests/unit/firmware/files/scratch_folder.hpp"
 
+// fontconfig keeps its patterns by relative pointers, which the leak detector cannot follow.
+extern "C" const char* __lsan_default_suppressions();
+extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfig\n"; }
+
 namespace ivo::firmware {
 namespace {
 
@@ -69,7 +73,8 @@ TEST(Picture, ShowsTheRobotsPlanInRedAndThePersonsInGreen) {
     const auto column = static_cast<std::size_t>(layout.map.x + p.x_m * layout.px_per_m);
     const auto row_from_top = static_cast<std::size_t>(layout.map.y + layout.map.height - p.y_m * layout.px_per_m);
     const auto width = static_cast<std::size_t>(image.value().width_px);
-    return image.value().pixels[(static_cast<std::size_t>(image.value().height_px) - 1 - row_from_top) * width + column];
+    return image.value()
+        .pixels[(static_cast<std::size_t>(image.value().height_px) - 1 - row_from_top) * width + column];
   };
   const Colour robot = seen_at({8, 2.1});
   EXPECT_GT(robot.r, robot.g + 80);
@@ -159,12 +164,12 @@ TEST(PictureStyle, RoundsLengthsDownToOneTwoOrFive) {
 TEST(PictureStyle, PutsArrowsAlongALineAwayFromItsCorners) {
   const std::vector<Point> line = {{0, 0}, {100, 0}, {100, 50}};
   const std::vector<Mark> marks = arrows_along(line, 40.0, 10.0);
-  ASSERT_EQ(marks.size(), 4U);
+  ASSERT_EQ(marks.size(), 3U);
   EXPECT_EQ(marks[0].at, (Point{20, 0}));
   EXPECT_EQ(marks[1].at, (Point{60, 0}));
   EXPECT_EQ(marks[0].heading_rad, 0.0);
-  EXPECT_EQ(marks[3].at.x_m, 100);
-  EXPECT_DOUBLE_EQ(marks[3].heading_rad, std::atan2(1, 0));
+  EXPECT_EQ(marks[2].at, (Point{100, 10}));
+  EXPECT_DOUBLE_EQ(marks[2].heading_rad, std::atan2(1, 0));
   for (const Mark& mark : marks) {
     EXPECT_GE(std::hypot(mark.at.x_m - 100, mark.at.y_m), 10.0);
   }

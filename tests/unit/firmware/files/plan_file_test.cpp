@@ -31,8 +31,8 @@ PlanDocument plan() {
 
 std::string complaint(std::string_view from, std::string_view to) {
   const ScratchFolder folder;
-  return replaced(message_of(read_plan(folder.put("p.json", replaced(plan_json(plan()), from, to)))), folder.path() + "/",
-                  "");
+  return replaced(message_of(read_plan(folder.put("p.json", replaced(plan_json(plan()), from, to)))),
+                  folder.path() + "/", "");
 }
 
 TEST(PlanFile, ReadsBackWhatItWroteToTheLastBit) {
@@ -122,13 +122,15 @@ TEST(PlanFile, RefusesFieldsThatAreMissingOrOfTheWrongType) {
             "p.json: score.complete: is no flag; expected true or false");
   EXPECT_EQ(complaint("\"unseen_mass\":0.0139", "\"unseen_mass\":1.5"),
             "p.json: score.unseen_mass: 1.5 will not do; expected a number, 0 to 1");
-  EXPECT_EQ(complaint("\"score\": {", "\"score\": 5, \"x\": {"), "p.json: score.expected_time_s: missing; it must be given");
+  EXPECT_EQ(complaint("\"score\": {", "\"score\": 5, \"x\": {"),
+            "p.json: score.expected_time_s: missing; it must be given");
 }
 
 TEST(PlanFile, RefusesAgentsAndWaypointsThatAreNone) {
   EXPECT_EQ(complaint("\"kind\":\"person\"", "\"kind\":\"dog\""),
             "p.json: agents[1].kind: \"dog\" is unknown; expected \"robot\" or \"person\"");
-  EXPECT_EQ(complaint("[[39.25,1.75]]", "[]"), "p.json: agents[1].waypoints_m: is no list; expected a list of at least one");
+  EXPECT_EQ(complaint("[[39.25,1.75]]", "[]"),
+            "p.json: agents[1].waypoints_m: is no list; expected a list of at least one");
   EXPECT_EQ(complaint("[1.75,1.75],", "[1.75],"), "p.json: agents[0].waypoints_m[0]: is no point; expected [x, y]");
   EXPECT_EQ(complaint("[1.75,1.75],", "[1.75,null],"),
             "p.json: agents[0].waypoints_m[0]: this will not do; expected a number, -1000000 to 1000000");
@@ -199,10 +201,10 @@ TEST(ReportFile, WritesAFindAndASearchWithoutOne) {
 
 TEST(ReportFile, NamesEveryEnd) {
   const std::pair<RunEnd, std::string> ends[] = {{RunEnd::kFound, "found"},
-                                                    {RunEnd::kPathsEnded, "paths_ended"},
-                                                    {RunEnd::kStopped, "stopped"},
-                                                    {RunEnd::kFault, "fault"},
-                                                    {RunEnd::kNoConsent, "no_consent"}};
+                                                 {RunEnd::kPathsEnded, "paths_ended"},
+                                                 {RunEnd::kStopped, "stopped"},
+                                                 {RunEnd::kFault, "fault"},
+                                                 {RunEnd::kNoConsent, "no_consent"}};
   for (const auto& [end, word] : ends) {
     ReportDocument report;
     report.end = end;

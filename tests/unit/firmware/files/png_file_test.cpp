@@ -54,8 +54,10 @@ TEST(PngFile, IgnoresTheAlphaChannelOfColours) {
 
 TEST(PngFile, ReadsGreyAsColoursAndScalesSixteenBits) {
   EXPECT_EQ(colours_of(written_png(1, 1, {8, PNG_COLOR_TYPE_GRAY}, {7})), std::vector<Colour>{kGrey});
-  EXPECT_EQ(colours_of(written_png(1, 1, {1, PNG_COLOR_TYPE_GRAY}, {0x80})), std::vector<Colour>{(Colour{255, 255, 255})});
-  EXPECT_EQ(colours_of(written_png(1, 1, {16, PNG_COLOR_TYPE_RGB}, {0xff, 0xff, 0, 0, 0, 0})), std::vector<Colour>{kRed});
+  EXPECT_EQ(colours_of(written_png(1, 1, {1, PNG_COLOR_TYPE_GRAY}, {0x80})),
+            std::vector<Colour>{(Colour{255, 255, 255})});
+  EXPECT_EQ(colours_of(written_png(1, 1, {16, PNG_COLOR_TYPE_RGB}, {0xff, 0xff, 0, 0, 0, 0})),
+            std::vector<Colour>{kRed});
 }
 
 TEST(PngFile, NamesAFileThatIsMissingOrNoPng) {
@@ -75,7 +77,8 @@ TEST(PngFile, RefusesEveryCutOfAFile) {
   for (std::size_t length = 8; length + 1 < whole.size(); ++length) {
     const auto image = read_colours(folder.put("a.png", whole.substr(0, length)));
     ASSERT_FALSE(image.ok()) << length << " of " << whole.size() << " bytes";
-    EXPECT_EQ(image.error().message.find(folder.path("a.png") + ": cut short or damaged ("), 0U) << image.error().message;
+    EXPECT_EQ(image.error().message.find(folder.path("a.png") + ": cut short or damaged ("), 0U)
+        << image.error().message;
   }
 }
 

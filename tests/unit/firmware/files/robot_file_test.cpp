@@ -15,14 +15,15 @@ std::string drive(const std::string& wheel, int node_id) {
 }
 
 const std::string kRobot =
-    "footprint_radius_m = 0.3\n"                                                        // 1
-    "[base]\ngeometry = 'omni_x'\nwheel_radius_m = 0.1\nhalf_length_m = 0.2\n"          // 2 to 5
-    "half_width_m = 0.25\nmax_wheel_radps = 15\n"                                       // 6, 7
-    "[limits]\nmax_speed_mps = 0.5\nmax_turn_radps = 1\nmax_accel_mps2 = 0.5\n"         // 8 to 11
-    "max_turn_accel_radps2 = 1.5\nstop_decel_mps2 = 1\n"                                // 12, 13
-    "[bus]\nbit_rate_bps = 500000\nmaster_node_id = 100\n" +                            // 14 to 16
-    drive("front_left", 1) + drive("front_right", 2) + drive("rear_left", 3) +          // 17, 23, 29
-    drive("rear_right", 4) + "vendor_id = 0xFFFFFFFF\nproduct_code = 5\n";              // 35, 41, 42
+    "footprint_radius_m = 0.3\n"                                                 // 1
+    "[base]\ngeometry = 'omni_x'\nwheel_radius_m = 0.1\nhalf_length_m = 0.2\n"   // 2 to 5
+    "half_width_m = 0.25\nmax_wheel_radps = 15\n"                                // 6, 7
+    "[limits]\nmax_speed_mps = 0.5\nmax_turn_radps = 1\nmax_accel_mps2 = 0.5\n"  // 8 to 11
+    "max_turn_accel_radps2 = 1.5\nstop_decel_mps2 = 1\n"                         // 12, 13
+    "[bus]\nbit_rate_bps = 500000\nmaster_node_id = 100\n" +                     // 14 to 16
+    drive("front_left", 1) +
+    drive("front_right", 2) + drive("rear_left", 3) +                       // 17, 23, 29
+    drive("rear_right", 4) + "vendor_id = 0xFFFFFFFF\nproduct_code = 5\n";  // 35, 41, 42
 
 std::string complaint(std::string_view from, std::string_view to) {
   const ScratchFolder folder;
@@ -62,8 +63,9 @@ TEST(RobotFile, ReadsEveryField) {
 TEST(RobotFile, RefusesNodeIdsThatAreSharedOrOutOfRange) {
   EXPECT_EQ(complaint("node_id = 3", "node_id = 1"),
             "r.toml:30: drive.rear_left.node_id: 1 is already drive.front_left's; expected a node-id of its own");
-  EXPECT_EQ(complaint("node_id = 3", "node_id = 100"),
-            "r.toml:30: drive.rear_left.node_id: 100 is the master's (bus.master_node_id); expected a node-id of its own");
+  EXPECT_EQ(
+      complaint("node_id = 3", "node_id = 100"),
+      "r.toml:30: drive.rear_left.node_id: 100 is the master's (bus.master_node_id); expected a node-id of its own");
   EXPECT_EQ(complaint("node_id = 3", "node_id = 127"),
             "r.toml:30: drive.rear_left.node_id: 127 is out of range; expected 1 to 126");
   EXPECT_EQ(complaint("node_id = 3", "node_id = 0"),
@@ -71,15 +73,15 @@ TEST(RobotFile, RefusesNodeIdsThatAreSharedOrOutOfRange) {
 }
 
 TEST(RobotFile, RefusesASignThatIsNoDirection) {
-  EXPECT_EQ(complaint("sign = 1", "sign = 0"),
-            "r.toml:19: drive.front_left.sign: 0 is no direction; expected 1 or -1");
+  EXPECT_EQ(complaint("sign = 1", "sign = 0"), "r.toml:19: drive.front_left.sign: 0 is no direction; expected 1 or -1");
   EXPECT_EQ(complaint("sign = 1", "sign = 2"), "r.toml:19: drive.front_left.sign: 2 is out of range; expected -1 to 1");
 }
 
 TEST(RobotFile, RefusesAStopThatIsGentlerThanBraking) {
-  EXPECT_EQ(complaint("stop_decel_mps2 = 1", "stop_decel_mps2 = 0.4"),
-            "r.toml:13: limits.stop_decel_mps2: 0.4 is gentler than ordinary braking; expected at least max_accel_mps2, "
-            "0.5");
+  EXPECT_EQ(
+      complaint("stop_decel_mps2 = 1", "stop_decel_mps2 = 0.4"),
+      "r.toml:13: limits.stop_decel_mps2: 0.4 is gentler than ordinary braking; expected at least max_accel_mps2, "
+      "0.5");
 }
 
 TEST(RobotFile, RefusesBitRatesThatAreNoneOrTooSlow) {

@@ -24,7 +24,8 @@ void read_speed(const TomlValue& root) {
 }
 
 TEST(TomlTable, HandsOutValuesOfEveryType) {
-  const auto file = TomlFile::parse("a = 1.5\nb = 2\nc = \"x\"\nd = true\ne = [3, 4.5]\nf = \"two\"\n[g]\nh = -7\n", "f.toml");
+  const auto file =
+      TomlFile::parse("a = 1.5\nb = 2\nc = \"x\"\nd = true\ne = [3, 4.5]\nf = \"two\"\n[g]\nh = -7\n", "f.toml");
   ASSERT_TRUE(file.ok()) << file.error().message;
   const TomlValue root = file.value().root();
   EXPECT_EQ(root.required("a").number({0, 10}), 1.5);
@@ -53,15 +54,19 @@ TEST(TomlTable, RefusesWhatIsOutOfRangeByLineAndKey) {
 
 TEST(TomlTable, RefusesWhatIsNoFiniteNumber) {
   for (const std::string word : {"nan", "inf", "-inf"}) {
-    EXPECT_EQ(complaint("speed_mps = " + word, read_speed),
-              "f.toml:1: speed_mps: " + word + " is not a finite number; expected a number, 0.05 to 3 (metres a second)");
+    EXPECT_EQ(
+        complaint("speed_mps = " + word, read_speed),
+        "f.toml:1: speed_mps: " + word + " is not a finite number; expected a number, 0.05 to 3 (metres a second)");
   }
 }
 
 TEST(TomlTable, RefusesEveryWrongTypeOfANumber) {
   const std::pair<std::string, std::string> wrong[] = {
-      {"\"fast\"", "\"fast\" is text"}, {"true", "true is a flag"},          {"[1]", "is a list"},
-      {"{ a = 1 }", "is a table"},      {"2024-01-01", "is a date or a time"},
+      {"\"fast\"", "\"fast\" is text"},
+      {"true", "true is a flag"},
+      {"[1]", "is a list"},
+      {"{ a = 1 }", "is a table"},
+      {"2024-01-01", "is a date or a time"},
   };
   for (const auto& [value, is] : wrong) {
     EXPECT_EQ(complaint("speed_mps = " + value, read_speed),
@@ -90,8 +95,7 @@ TEST(TomlTable, RefusesUnknownWordsAndNamesTheKnownOnes) {
 
 TEST(TomlTable, RefusesPointsThatAreNone) {
   const auto read = [](const TomlValue& root) { (void)root.required("start_m").point({0, 10, "metres"}); };
-  EXPECT_EQ(complaint("start_m = [1]", read),
-            "f.toml:1: start_m: has 1 element; expected a list of 2 numbers, [x, y]");
+  EXPECT_EQ(complaint("start_m = [1]", read), "f.toml:1: start_m: has 1 element; expected a list of 2 numbers, [x, y]");
   EXPECT_EQ(complaint("start_m = [1, 2, 3]", read),
             "f.toml:1: start_m: has 3 elements; expected a list of 2 numbers, [x, y]");
   EXPECT_EQ(complaint("start_m = [\n1,\n-2]", read),
@@ -122,8 +126,7 @@ TEST(TomlTable, ListsTheKnownKeysWhenNoneIsNear) {
 }
 
 TEST(TomlTable, ComplainsOfAnUnknownKeyBeforeTheMissingOneThatItExplains) {
-  EXPECT_EQ(complaint("\n\nspeed_mp = 1", read_speed),
-            "f.toml:3: speed_mp: unknown; did you mean speed_mps?");
+  EXPECT_EQ(complaint("\n\nspeed_mp = 1", read_speed), "f.toml:3: speed_mp: unknown; did you mean speed_mps?");
 }
 
 TEST(TomlTable, ComplainsOfTheFirstFaultInTheFile) {
@@ -159,7 +162,8 @@ TEST(TomlTable, NamesAFileThatIsNotThere) {
 }
 
 TEST(TomlTable, RemembersTheLinesOfKeys) {
-  const auto file = TomlFile::parse("a = 1\n[[agent]]\nname = 'x'\n\n[[agent]]\nstart_m = [\n1,\n2]\n[t.u]\nv = 1\n", "f.toml");
+  const auto file =
+      TomlFile::parse("a = 1\n[[agent]]\nname = 'x'\n\n[[agent]]\nstart_m = [\n1,\n2]\n[t.u]\nv = 1\n", "f.toml");
   ASSERT_TRUE(file.ok()) << file.error().message;
   const Lines& lines = file.value().lines();
   EXPECT_EQ(lines.line_of("a"), 1);

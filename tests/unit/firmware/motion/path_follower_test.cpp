@@ -193,6 +193,17 @@ TEST(PathFollower, FollowsAPathOfThousandsOfPointsAMillimetreApart) {
   EXPECT_TRUE(run.kept_to_path);
 }
 
+TEST(PathFollower, CrawlsButDoesNotStopAtEveryJagOfARaggedPath) {
+  Path path;
+  for (int i = 0; i <= 1000; ++i) {
+    path.push_back({i * 0.001, (i % 2) * 0.001});
+  }
+  const Drive run = PerfectBase().follow(path);
+  EXPECT_TRUE(run.reached);
+  EXPECT_TRUE(run.kept_to_path);
+  EXPECT_LT(run.duration_s, 40.0) << "1.4 m at 0.06 m/s";
+}
+
 TEST(PathFollower, TurnsBackOnItself) {
   const Drive run = PerfectBase().follow({{0, 0}, {2, 0}, {0, 0}}, 0.06);
   EXPECT_TRUE(run.reached);
@@ -359,6 +370,7 @@ TEST(PathFollower, CommandsNothingFromAPoseThatIsNotANumber) {
   ASSERT_TRUE(follower.start(path, {}));
   const PathFollower::Output out = follower.update({{std::nan(""), 0, 0}, {0.4, 0, 0}, kCycle});
   EXPECT_EQ(out.command.vx_mps, 0.0);
+  EXPECT_EQ(out.distance_left_m, 5.0);
   EXPECT_FALSE(out.reached);
   EXPECT_GT(follower.update({{0.1, 0, 0}, {0.4, 0, 0}, kCycle}).command.vx_mps, 0.0) << "and goes on when it is";
 }

@@ -30,8 +30,8 @@ TEST(Cells, TakeTheClassOfMostOfTheirPixels) {
 
 TEST(Cells, TakeTheLowestClassOnATie) {
   DrawnMap map(1.0, 0.5, 0.25);
-  map.put(kBuilding, 0.0, 0.0, 0.5, 0.25);                                         // two pavement, two building
-  map.put(kWater, 0.5, 0.0, 1.0, 0.25).put(kBuilding, 0.5, 0.25, 1.0, 0.5);        // two building, two water
+  map.put(kBuilding, 0.0, 0.0, 0.5, 0.25);                                   // two pavement, two building
+  map.put(kWater, 0.5, 0.0, 1.0, 0.25).put(kBuilding, 0.5, 0.25, 1.0, 0.5);  // two building, two water
   const Cells& cells = cells_of(map.view(), 0.5);
   EXPECT_FALSE(cells.obstacle(cells.at(0, 0)));
   EXPECT_TRUE(cells.occluder(cells.at(1, 0)));
@@ -127,7 +127,8 @@ TEST(Cells, FindAnOccluderInAnyWindowAndOnlyThere) {
   std::mt19937 random(6);
   for (int i = 0; i < 2000; ++i) {
     const CellWindow w{static_cast<int>(random() % 16), static_cast<int>(random() % 12), 0, 0};
-    const CellWindow window{w.first_column, w.first_row, w.first_column + static_cast<int>(random() % 16) % (16 - w.first_column),
+    const CellWindow window{w.first_column, w.first_row,
+                            w.first_column + static_cast<int>(random() % 16) % (16 - w.first_column),
                             w.first_row + static_cast<int>(random() % 12) % (12 - w.first_row)};
     bool any = false;
     for (int row = window.first_row; row <= window.last_row; ++row) {

@@ -68,7 +68,8 @@ double slow_clearance_m(const SegmentedMap& map, ClassSet blocked, Point a, Poin
     for (int column = 0; column < map.width_px; ++column) {
       if (((blocked >> static_cast<unsigned>(map.at(column, row))) & 1U) != 0) {
         const double size = map.resolution_m;
-        nearest = std::min(nearest, segment_to_rectangle_m(a, b, {column * size, row * size, (column + 1) * size, (row + 1) * size}));
+        nearest = std::min(
+            nearest, segment_to_rectangle_m(a, b, {column * size, row * size, (column + 1) * size, (row + 1) * size}));
       }
     }
   }
@@ -116,7 +117,8 @@ TEST(Clearance, AgreesWithASearchOfTheWholeMap) {
     for (int k = 0; k < 25; ++k) {
       const Point p{8.0 * unit(random), 6.0 * unit(random)};
       const double limit_m = 2.0 * unit(random);
-      ASSERT_NEAR(clearance(map.view(), obstacles, p, limit_m), std::min(limit_m, slow_clearance_m(map.view(), obstacles, p, p)), 1e-12);
+      ASSERT_NEAR(clearance(map.view(), obstacles, p, limit_m),
+                  std::min(limit_m, slow_clearance_m(map.view(), obstacles, p, p)), 1e-12);
     }
   }
 }
@@ -128,7 +130,7 @@ TEST(SweptDisc, AgreesWithDistancesToEveryPixel) {
   const std::array<ClassSet, 2> sets = {
       obstacle_classes(classes),
       static_cast<ClassSet>(obstacle_classes(classes) | restricted_classes(classes, AgentKind::kRobot))};
-  constexpr double kTouching = 1e-7;  // nearer to a tie than this, either answer is right
+  constexpr double kTouching = 1e-4;  // what the header promises
   int free = 0;
   int judged = 0;
   for (int i = 0; i < 60; ++i) {
@@ -137,7 +139,9 @@ TEST(SweptDisc, AgreesWithDistancesToEveryPixel) {
       const Point a{8.0 * unit(random), 6.0 * unit(random)};
       const double reach = 0.3 + 3.0 * unit(random);
       const double angle = 6.283185307179586 * unit(random);
-      const Point b = k % 10 == 0 ? a : Point{a.x_m + reach * std::cos(angle), a.y_m + (k % 10 == 1 ? 0.0 : reach * std::sin(angle))};
+      const Point b =
+          k % 10 == 0 ? a
+                      : Point{a.x_m + reach * std::cos(angle), a.y_m + (k % 10 == 1 ? 0.0 : reach * std::sin(angle))};
       const double radius_m = 0.05 + 0.6 * unit(random);
       const ClassSet blocked = sets[random() % 2];
       const double distance_m = slow_clearance_m(map.view(), blocked, a, b);
@@ -147,8 +151,8 @@ TEST(SweptDisc, AgreesWithDistancesToEveryPixel) {
       ++judged;
       free += distance_m > radius_m ? 1 : 0;
       ASSERT_EQ(swept_disc_is_free(map.view(), blocked, a, b, radius_m), distance_m > radius_m)
-          << "from " << a.x_m << ", " << a.y_m << " to " << b.x_m << ", " << b.y_m << ", radius " << radius_m << ", distance "
-          << distance_m;
+          << "from " << a.x_m << ", " << a.y_m << " to " << b.x_m << ", " << b.y_m << ", radius " << radius_m
+          << ", distance " << distance_m;
     }
   }
   EXPECT_GT(judged, 3000);

@@ -39,7 +39,9 @@ TEST(NodePlacement, CountsPixelsThatTheSquareCutsByThePartInside) {
   expect_node(map, {5.1, 6.05}, {4.2, 4.2, 7.9, 7.9});
 }
 
-TEST(NodePlacement, IgnoresWhatDoesNotBlockMotion) { expect_node(open_map().put(kStairs, 4.0, 4.0, 8.0, 8.0), {6.0, 6.0}); }
+TEST(NodePlacement, IgnoresWhatDoesNotBlockMotion) {
+  expect_node(open_map().put(kStairs, 4.0, 4.0, 8.0, 8.0), {6.0, 6.0});
+}
 
 TEST(NodePlacement, TakesTheCornerNearestToTheCentroidWhenThatIsBlockedToo) {
   expect_node(open_map().put(kWall, 5.2, 5.2, 7.0, 7.0), {4.0, 4.0});

@@ -1,0 +1,143 @@
+#!/usr/bin/env python3
+"""`ivo run` from outside: what it writes, what it returns, what it never does."""
+
+import os
+import pty
+import signal
+import subprocess
+import tempfile
+import unittest
+
+from mission_files import COURTYARD, IVO, MISSION, events, ivo, read_json, write_mission
+
+
+def contents(folder, name):
+    with open(os.path.join(folder, name), "rb") as file:
+        return file.read()
+
+
+class Run(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = scratch.name
+        self.out = os.path.join(self.folder, "out")
+
+    def modes(self):
+        return [event["mode"] for event in events(self.out) if event["event"] == "mode"]
+
+    def test_the_courtyard_search_is_the_same_every_time(self):
+        outs = [os.path.join(self.folder, name) for name in ("first", "second")]
+        for out in outs:
+            done = ivo("run", COURTYARD, "--yes", "--speed", "max", "--out", out)
+            self.assertEqual(done.returncode, 0, done.stderr)
+        for name in ("plan.json", "report.json", "events.jsonl"):
+            self.assertEqual(contents(outs[0], name), contents(outs[1], name), name)
+        self.assertTrue(contents(outs[0], "search.png").startswith(b"\x89PNG"))
+
+        plan = read_json(outs[0], "plan.json")
+        report = read_json(outs[0], "report.json")
+        self.assertTrue(plan["score"]["complete"])
+        self.assertLessEqual(plan["score"]["unseen_mass"], 0.014)
+        self.assertEqual(report["plan_score"], plan["score"])
+        self.assertIn(report["end"], ("found", "paths_ended"))
+        robot, person = report["agents"]
+        self.assertGreater(robot["distance_m"], 1.0)
+        self.assertLessEqual(robot["mean_speed_mps"], 0.35)
+        self.assertAlmostEqual(person["mean_speed_mps"], 0.5, places=2)
+        # No date, no machine, no duration of the host.
+        for name in ("plan.json", "report.json"):
+            text = contents(outs[0], name).decode()
+            self.assertNotRegex(text, r"20[2-9]\d-\d\d|wall|host")
+
+    def test_the_robot_drives_along_its_plan(self):
+        done = ivo("run", COURTYARD, "--yes", "--speed", "max", "--out", self.out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        waypoints = read_json(self.out, "plan.json")["agents"][0]["waypoints_m"]
+        for event in events(self.out):
+            if event["event"] == "position" and event["agent"] == "IVO":
+                at = (event["x_m"], event["y_m"])
+                self.assertLess(min(distance(at, a, b) for a, b in zip(waypoints, waypoints[1:])), 0.10, event)
+
+    def test_without_anybody_to_ask_nothing_moves(self):
+        done = ivo("run", write_mission(self.folder), "--speed", "max", "--out", self.out)
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertIn("nobody consented", done.stdout)
+        self.assertIn("expected time", done.stdout)
+        self.assertTrue(read_json(self.out, "plan.json")["agents"])
+        self.assertEqual(read_json(self.out, "report.json")["end"], "no_consent")
+        self.assertNotIn("searching", self.modes())
+        for agent in read_json(self.out, "report.json")["agents"]:
+            self.assertEqual(agent["distance_m"], 0.0)
+
+    def ask_at_a_terminal(self, answer):
+        terminal, far_end = pty.openpty()
+        process = subprocess.Popen(
+            [IVO, "run", write_mission(self.folder), "--speed", "max", "--out", self.out],
+            stdin=far_end, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+        )
+        os.close(far_end)
+        os.write(terminal, answer)
+        output = process.communicate()[0]
+        os.close(terminal)
+        self.assertIn("Start the search?", output)
+        return process.returncode
+
+    def test_yes_at_the_terminal_starts_the_search(self):
+        self.assertEqual(self.ask_at_a_terminal(b"y\n"), 0)
+        self.assertIn("searching", self.modes())
+
+    def test_anything_else_at_the_terminal_starts_nothing(self):
+        self.assertEqual(self.ask_at_a_terminal(b"\n"), 3)
+        self.assertNotIn("searching", self.modes())
+
+    def test_a_stop_signal_ends_the_search_at_rest_and_is_reported(self):
+        mission = MISSION.replace('object = "drawn"', 'object = "unknown"')
+        process = subprocess.Popen(
+            [IVO, "run", write_mission(self.folder, mission), "--yes", "--speed", "5", "--out", self.out],
+            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+        )
+        for line in process.stdout:
+            if line.startswith("searching"):
+                process.send_signal(signal.SIGTERM)
+                break
+        output, errors = process.communicate()
+        self.assertEqual(process.returncode, 1, output + errors)
+        self.assertEqual(read_json(self.out, "report.json")["end"], "stopped")
+        self.assertEqual(self.modes()[-2:], ["stopping", "done"])
+
+    def test_an_object_in_reach_is_found_by_the_robot(self):
+        mission = MISSION.replace('object = "drawn"', "object = [2.0, 2.0]")
+        done = ivo("run", write_mission(self.folder, mission), "--yes", "--speed", "max", "--out", self.out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        report = read_json(self.out, "report.json")
+        self.assertEqual((report["end"], report["finder"]), ("found", "IVO"))
+
+    def test_a_search_for_an_unknown_object_ends_with_the_paths(self):
+        mission = MISSION.replace('object = "drawn"', 'object = "unknown"')
+        done = ivo("run", write_mission(self.folder, mission), "--yes", "--speed", "max", "--out", self.out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        report = read_json(self.out, "report.json")
+        self.assertEqual((report["end"], report["finder"], report["object_m"]), ("paths_ended", None, None))
+        for agent in report["agents"]:
+            self.assertAlmostEqual(agent["distance_m"], agent["planned_length_m"], delta=0.05 * agent["planned_length_m"] + 0.3)
+
+    def test_an_output_folder_that_cannot_be_is_refused_before_anything_starts(self):
+        blocked = os.path.join(self.folder, "file")
+        with open(blocked, "w", encoding="utf-8"):
+            pass
+        done = ivo("run", write_mission(self.folder), "--yes", "--speed", "max", "--out", blocked)
+        self.assertEqual(done.returncode, 2)
+        self.assertRegex(done.stderr, r"^ivo: .*file.*\n$")
+
+
+def distance(p, a, b):
+    """From point p to the segment a b."""
+    ab = (b[0] - a[0], b[1] - a[1])
+    length2 = ab[0] ** 2 + ab[1] ** 2
+    t = 0.0 if length2 == 0 else max(0.0, min(1.0, ((p[0] - a[0]) * ab[0] + (p[1] - a[1]) * ab[1]) / length2))
+    return ((p[0] - a[0] - t * ab[0]) ** 2 + (p[1] - a[1] - t * ab[1]) ** 2) ** 0.5
+
+
+if __name__ == "__main__":
+    unittest.main()

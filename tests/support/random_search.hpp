@@ -1,0 +1,73 @@
+// Small searches drawn at random: a map with things that hide and things that only block, one to three agents, a prior,
+// perhaps preferences. Some are refused (a start in a wall, an area over water): the caller draws again.
+#pragma once
+
+#include <random>
+#include <vector>
+
+#include "planner/search/planner.hpp"
+#include "tests/support/areas.hpp"
+#include "tests/support/drawn_map.hpp"
+
+namespace ivo::test {
+
+class RandomSearch {
+ public:
+  explicit RandomSearch(std::mt19937_64& random) : random_(random), map_(between(7.0, 15.0), between(6.0, 11.0), 0.25) {
+    draw_map();
+    problem_.map = map_.view();
+    problem_.cell_m = chance(0.5) ? 0.5 : 0.25;
+    problem_.graph.spacing_m = between(1.8, 3.0);
+    if (chance(0.5)) {
+      gaussians_ = {{anywhere(), between(0.8, 3.0), 1.0}, {anywhere(), between(0.8, 3.0), 2.0}};
+      problem_.prior = std::span<const planner::GaussianComponent>(gaussians_);
+    }
+    const std::size_t agents = 1 + random_() % 3;
+    const bool preferences = chance(0.6);
+    for (std::size_t m = 0; m < agents; ++m) {
+      problem_.agents.resize(m + 1);
+      draw_agent(problem_.agents[m], preferences);
+    }
+    problem_.colony.generations = 3;
+    problem_.colony.ants = 4;
+    problem_.colony.seed = random_();
+    problem_.colony.ant.shortest_first = between(0.5, 1.0);
+    problem_.colony.ant.max_unseen_mass = chance(0.6) ? 0.014 : between(0.0, 0.4);
+  }
+  RandomSearch(const RandomSearch&) = delete;
+  RandomSearch& operator=(const RandomSearch&) = delete;
+
+  [[nodiscard]] planner::SearchProblem& problem() { return problem_; }
+
+ private:
+  double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
+  bool chance(double p) { return between(0.0, 1.0) < p; }
+  Point anywhere() { return {between(0.0, map_.view().width_m()), between(0.0, map_.view().height_m())}; }
+
+  void draw_map() {
+    constexpr std::array<SemanticClass, 4> kThings = {SemanticClass::kBuilding, SemanticClass::kTree,
+                                                      SemanticClass::kWater, SemanticClass::kStreetFurniture};
+    for (int i = 0; i < 5; ++i) {
+      const Point p = anywhere();
+      map_.put(kThings[random_() % kThings.size()], p.x_m, p.y_m, p.x_m + between(0.3, 2.0), p.y_m + between(0.3, 2.0));
+    }
+  }
+
+  void draw_agent(planner::SearchAgent& agent, bool preferences) {
+    agent.body.start = anywhere();
+    agent.body.kind = chance(0.5) ? AgentKind::kPerson : AgentKind::kRobot;
+    agent.speed_mps = chance(0.3) ? 0.5 : between(0.3, 1.5);
+    agent.sight_radius_m = chance(0.5) ? 2.0 : between(0.6, 3.5);
+    for (int i = 0; preferences && i < 2 && chance(0.5); ++i) {
+      const Point p = anywhere();
+      (void)agent.preferred.push_back(rectangle(p.x_m, p.y_m, p.x_m + 4.0, p.y_m + 3.0));
+    }
+  }
+
+  std::mt19937_64& random_;
+  DrawnMap map_;
+  std::vector<planner::GaussianComponent> gaussians_;
+  planner::SearchProblem problem_;
+};
+
+}  // namespace ivo::test

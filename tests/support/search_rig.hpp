@@ -1,0 +1,127 @@
+// A whole robot in one process: planner, control loop, virtual bus and simulated drives on a 12 x 12 m plaza, cycle by
+// cycle.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <memory>
+#include <vector>
+
+#include "config/rates.hpp"
+#include "drivers/sim/sim_drives.hpp"
+#include "firmware/loop/control_loop.hpp"
+#include "hal/sim/virtual_bus.hpp"
+#include "tests/support/drawn_map.hpp"
+
+namespace ivo::test {
+
+class SearchRig {
+ public:
+  struct Options {
+    std::optional<Point> object;
+    drivers::SimDrives::Scripts scripts{};
+    int generations = 3;
+  };
+
+  explicit SearchRig(const Options& options)
+      : robot_(robot()), drives_(bus_.port(1), robot_, drivers::SimDrives::TimeFrom::kClock, options.scripts) {
+    prepare(options.generations);
+    firmware::LoopSetup setup{.robot = robot_, .start = {1.5, 1.5, 0.0}, .searchers = {}, .object = {}};
+    (void)setup.searchers.push_back({.kind = AgentKind::kRobot, .start = {1.5, 1.5}, .speed_mps = 0.5});
+    (void)setup.searchers.push_back({.kind = AgentKind::kPerson, .start = {10.5, 1.5}, .speed_mps = 0.5});
+    if (options.object) {
+      setup.object = firmware::SearchObject(*options.object, FindRule::kSight);
+    }
+    loop_ = std::make_unique<firmware::ControlLoop>(setup, planner(), bus_.port(0));
+    drives_.open();
+    loop_->open(now_);
+  }
+
+  /// One cycle, then the drives answer and 2 ms pass.
+  const firmware::LoopStatus& cycle() {
+    loop_->cycle(now_, 0);
+    drives_.update(now_);
+    now_ += rates::kCycle;
+    return loop_->status();
+  }
+  void run(Duration time) {
+    for (const Instant end = now_ + time; now_ < end;) {
+      cycle();
+    }
+  }
+  /// False when the mode did not come within `limit`.
+  bool run_until(firmware::Mode mode, Duration limit = std::chrono::seconds(600)) {
+    for (const Instant end = now_ + limit; now_ < end;) {
+      if (cycle().mode == mode) {
+        return true;
+      }
+    }
+    return false;
+  }
+  bool start_search() {
+    if (!run_until(firmware::Mode::kAwaitingConsent)) {
+      return false;
+    }
+    loop_->command(firmware::OperatorCommand::kConsent);
+    return run_until(firmware::Mode::kSearching, std::chrono::seconds(1));
+  }
+  /// True while any simulated wheel turns.
+  bool wheels_turn() {
+    for (int i = 0; i < kWheels; ++i) {
+      if (drives_.drive(static_cast<Wheel>(i)).motion().velocity() != 0) {
+        return true;
+      }
+    }
+    return false;
+  }
+  std::vector<firmware::Event> events() {
+    std::vector<firmware::Event> events;
+    for (firmware::Event event; loop_->events().pop(event);) {
+      events.push_back(event);
+    }
+    return events;
+  }
+
+  firmware::ControlLoop& loop() { return *loop_; }
+  drivers::SimDrives& drives() { return drives_; }
+  hal::VirtualBus& bus() { return bus_; }
+  [[nodiscard]] Instant now() const { return now_; }
+
+ private:
+  // One for the program: it is large.
+  static planner::Planner& planner() {
+    static planner::Planner planner;
+    return planner;
+  }
+  static Robot robot() {
+    Robot robot;
+    robot.name = "test base";
+    for (std::size_t i = 0; i < robot.drives.size(); ++i) {
+      robot.drives[i].node_id = static_cast<std::uint8_t>(i + 1);
+      robot.drives[i].sign = i % 2 == 0 ? 1 : -1;
+      robot.drives[i].gear_ratio = 20.0;
+    }
+    return robot;
+  }
+  static void prepare(int generations) {
+    const DrawnMap map(12, 12, 0.25);
+    planner::SearchProblem problem;
+    problem.map = map.view();
+    problem.graph.spacing_m = 3.0;
+    problem.colony.generations = generations;
+    for (const Point start : {Point{1.5, 1.5}, Point{10.5, 1.5}}) {
+      planner::SearchAgent agent;
+      agent.body.start = start;
+      (void)problem.agents.push_back(agent);
+    }
+    IVO_CONTRACT(!planner().prepare(problem));
+  }
+
+  hal::VirtualBus bus_;
+  Robot robot_;
+  drivers::SimDrives drives_;
+  std::unique_ptr<firmware::ControlLoop> loop_;
+  Instant now_{};
+};
+
+}  // namespace ivo::test

@@ -1,0 +1,190 @@
+#include "firmware/loop/control_loop.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/support/search_rig.hpp"
+
+namespace ivo::firmware {
+namespace {
+
+using std::chrono_literals::operator""ms;
+using std::chrono_literals::operator""s;
+using test::SearchRig;
+
+bool has(const std::vector<Event>& events, EventKind kind) {
+  return std::any_of(events.begin(), events.end(), [&](const Event& event) { return event.kind == kind; });
+}
+
+TEST(ControlLoop, PlansWhileTheDrivesStartUpAndThenAwaitsConsent) {
+  SearchRig rig({});
+  ASSERT_TRUE(rig.run_until(Mode::kAwaitingConsent));
+  EXPECT_TRUE(rig.loop().status().plan_ready);
+  EXPECT_EQ(rig.loop().status().drives, drivers::GroupState::kReady);
+  EXPECT_EQ(rig.loop().plan().paths.size(), 2U);
+}
+
+TEST(ControlLoop, MovesNothingAsLongAsNobodyConsents) {
+  SearchRig rig({});
+  ASSERT_TRUE(rig.run_until(Mode::kAwaitingConsent));
+  for (int i = 0; i < 5000; ++i) {
+    EXPECT_EQ(rig.cycle().mode, Mode::kAwaitingConsent);
+    ASSERT_FALSE(rig.wheels_turn());
+    ASSERT_EQ(rig.drives().drive(Wheel::kFrontLeft).power_state(), drivers::cia402::PowerState::kSwitchOnDisabled);
+  }
+}
+
+TEST(ControlLoop, ConsentBeforeThePlanIsShownCountsForNothing) {
+  SearchRig rig({});
+  rig.cycle();
+  ASSERT_EQ(rig.loop().status().mode, Mode::kPlanning);
+  rig.loop().command(OperatorCommand::kConsent);
+  ASSERT_TRUE(rig.run_until(Mode::kAwaitingConsent));
+  rig.run(2s);
+  EXPECT_EQ(rig.loop().status().mode, Mode::kAwaitingConsent);
+  EXPECT_FALSE(rig.wheels_turn());
+}
+
+TEST(ControlLoop, TheRobotDrivesItsPlanToTheEndAndPowersOff) {
+  SearchRig rig({});
+  ASSERT_TRUE(rig.start_search());
+  ASSERT_TRUE(rig.run_until(Mode::kDone));
+  const LoopStatus& status = rig.loop().status();
+  EXPECT_EQ(status.search, SearchState::kPathsEnded);
+  EXPECT_FALSE(status.finder.has_value());
+  const planner::AgentPath& path = rig.loop().plan().paths[0];
+  EXPECT_NEAR(status.robot.x_m, path.waypoints.back().x_m, 0.06);
+  EXPECT_NEAR(status.robot.y_m, path.waypoints.back().y_m, 0.06);
+  EXPECT_NEAR(status.tracks[0].moved_m, path.length_m, 0.05 * path.length_m);
+  EXPECT_FALSE(rig.wheels_turn());
+  EXPECT_EQ(status.counters.refused_frames, 0U);
+  EXPECT_EQ(status.counters.refused_commands, 0U);
+  rig.run(1s);
+  EXPECT_TRUE(rig.loop().finished());
+  EXPECT_NE(rig.drives().drive(Wheel::kRearRight).power_state(), drivers::cia402::PowerState::kOperationEnabled);
+}
+
+TEST(ControlLoop, ARobotThatSeesTheObjectEndsTheSearch) {
+  SearchRig rig({.object = Point{2.0, 4.6}});
+  ASSERT_TRUE(rig.start_search());
+  ASSERT_TRUE(rig.run_until(Mode::kDone));
+  EXPECT_EQ(rig.loop().status().search, SearchState::kFound);
+  EXPECT_EQ(rig.loop().status().finder, 0);
+  EXPECT_TRUE(has(rig.events(), EventKind::kFound));
+}
+
+TEST(ControlLoop, AStopRampsDownWithinTheConfiguredDeceleration) {
+  SearchRig rig({});
+  ASSERT_TRUE(rig.start_search());
+  rig.run(5s);
+  ASSERT_TRUE(rig.wheels_turn());
+  rig.loop().command(OperatorCommand::kStop);
+  ASSERT_TRUE(rig.run_until(Mode::kStopping, 4ms));
+  // 0.5 m/s at 1 m/s^2 and the drives' own ramp.
+  rig.run(700ms);
+  EXPECT_FALSE(rig.wheels_turn());
+  ASSERT_TRUE(rig.run_until(Mode::kDone, 1s));
+  EXPECT_EQ(rig.loop().status().stop_cause, StopCause::kAsked);
+}
+
+TEST(ControlLoop, NobodyStartsASearchThatWasStopped) {
+  SearchRig rig({});
+  ASSERT_TRUE(rig.start_search());
+  rig.run(1s);
+  rig.loop().command(OperatorCommand::kStop);
+  ASSERT_TRUE(rig.run_until(Mode::kDone, 5s));
+  rig.loop().command(OperatorCommand::kConsent);
+  rig.run(2s);
+  EXPECT_EQ(rig.loop().status().mode, Mode::kDone);
+  EXPECT_FALSE(rig.wheels_turn());
+}
+
+class LosingADrive : public testing::TestWithParam<int> {};
+
+TEST_P(LosingADrive, StopsAllFourAndSaysWhich) {
+  SearchRig rig({});
+  ASSERT_TRUE(rig.start_search());
+  rig.run(4s);
+  ASSERT_TRUE(rig.wheels_turn());
+  drivers::SimScript& script = rig.drives().drive(Wheel::kRearLeft).script();
+  switch (GetParam()) {
+    case 0:
+      script.silent_from = rig.now();
+      break;
+    case 1:
+      script.feedback_lost_from = rig.now();
+      break;
+    case 2:
+      script.heartbeat_lost_from = rig.now();
+      break;
+    case 3:
+      script.reboot_at = rig.now();
+      break;
+    default:
+      script.fault_at = rig.now();
+      break;
+  }
+  ASSERT_TRUE(rig.run_until(Mode::kFault, rates::kDriveHeartbeatTimeout + 60ms));
+  EXPECT_EQ(rig.loop().status().drive_fault.node_id, 3);
+  EXPECT_EQ(rig.loop().status().drive_fault.wheel, Wheel::kRearLeft);
+  EXPECT_TRUE(has(rig.events(), EventKind::kDriveFault));
+  rig.run(1s);
+  for (const Wheel wheel : {Wheel::kFrontLeft, Wheel::kFrontRight, Wheel::kRearRight}) {
+    EXPECT_EQ(rig.drives().drive(wheel).motion().velocity(), 0) << static_cast<int>(wheel);
+  }
+  rig.loop().command(OperatorCommand::kConsent);
+  rig.run(4s);
+  EXPECT_EQ(rig.loop().status().mode, Mode::kFault);
+  EXPECT_TRUE(rig.loop().finished());
+}
+INSTANTIATE_TEST_SUITE_P(SilentNoFeedbackNoHeartbeatRebootFault, LosingADrive, testing::Range(0, 5));
+
+TEST(ControlLoop, ADriveThatFailsToStartUpEndsTheRunBeforeAnythingMoves) {
+  SearchRig::Options options;
+  options.scripts[1].device_type = 0x0003'0191;
+  SearchRig rig(options);
+  ASSERT_TRUE(rig.run_until(Mode::kFault, 10s));
+  EXPECT_EQ(rig.loop().status().drive_fault.reason, drivers::DriveFaultReason::kUnexpectedValue);
+  EXPECT_EQ(rig.loop().status().drive_fault.node_id, 2);
+  EXPECT_TRUE(rig.loop().finished());
+  EXPECT_FALSE(rig.wheels_turn());
+}
+
+TEST(ControlLoop, ABusThatIsOffStopsTheSearch) {
+  SearchRig rig({});
+  ASSERT_TRUE(rig.start_search());
+  rig.run(3s);
+  rig.bus().set_state(0, hal::BusState::kOff);
+  ASSERT_TRUE(rig.run_until(Mode::kFault, 4ms));
+  // The drives no longer hear our heartbeat and stop by themselves.
+  rig.run(rates::kMasterHeartbeatTimeout + 1s);
+  EXPECT_FALSE(rig.wheels_turn());
+}
+
+TEST(ControlLoop, TheSameRunHasTheSameEventsBitForBit) {
+  std::vector<Event> runs[2];
+  for (std::vector<Event>& run : runs) {
+    SearchRig rig({});
+    ASSERT_TRUE(rig.start_search());
+    ASSERT_TRUE(rig.run_until(Mode::kDone));
+    run = rig.events();
+  }
+  ASSERT_EQ(runs[0].size(), runs[1].size());
+  for (std::size_t i = 0; i < runs[0].size(); ++i) {
+    EXPECT_EQ(runs[0][i].at, runs[1][i].at);
+    EXPECT_EQ(runs[0][i].kind, runs[1][i].kind);
+    EXPECT_EQ(runs[0][i].x, runs[1][i].x);
+    EXPECT_EQ(runs[0][i].y, runs[1][i].y);
+  }
+}
+
+TEST(ControlLoop, SkippedPeriodsAreCountedAndRecorded) {
+  SearchRig rig({});
+  rig.loop().cycle(rig.now(), 3);
+  EXPECT_EQ(rig.loop().status().counters.skipped, 3U);
+  EXPECT_TRUE(has(rig.events(), EventKind::kOverrun));
+}
+
+}  // namespace
+}  // namespace ivo::firmware

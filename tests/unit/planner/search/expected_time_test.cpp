@@ -1,0 +1,136 @@
+#include "planner/search/expected_time.hpp"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <vector>
+
+namespace ivo::planner {
+namespace {
+
+// A handful of cells in a row, with numbers small enough to do by hand.
+class ExpectedTimeTest : public testing::Test {
+ protected:
+  ExpectedTimeTest() { sightings_->clear(); }
+
+  void masses(const std::vector<double>& masses) {
+    belief_->cells = belief_->mass_cell_count = static_cast<int>(masses.size());
+    belief_->agents = 2;
+    for (std::size_t c = 0; c < masses.size(); ++c) {
+      belief_->mass[c] = masses[c];
+      belief_->mass_cells[c] = static_cast<Cell>(c);
+    }
+  }
+
+  PlanScore score(double max_unseen_mass = 0.014, int slice = 100) {
+    ExpectedTime expected;
+    for (int first = 0; first < belief_->mass_cell_count; first += slice) {
+      expected.add(*belief_, *sightings_, first, std::min(slice, belief_->mass_cell_count - first));
+    }
+    return expected.score(*belief_, max_unseen_mass);
+  }
+
+  std::unique_ptr<Belief> belief_ = std::make_unique<Belief>();
+  std::unique_ptr<FirstSightings> sightings_ = std::make_unique<FirstSightings>();
+};
+
+TEST_F(ExpectedTimeTest, IsZeroWhenAllIsSeenFromTheStart) {
+  masses({0.5, 0.5});
+  (void)sightings_->see(0, 0, 0.0);
+  (void)sightings_->see(1, 1, 0.0);
+  EXPECT_EQ(score().expected_time_s, 0.0);
+  EXPECT_EQ(score().expected_time_continuous_s, 0.0);
+  EXPECT_EQ(score().unseen_mass, 0.0);
+  EXPECT_TRUE(score().complete);
+}
+
+TEST_F(ExpectedTimeTest, SumsWhatIsLeftAfterEachStep) {
+  masses({0.25, 0.25, 0.5});
+  (void)sightings_->see(0, 0, 0.0);
+  (void)sightings_->see(1, 0, 1.5);
+  (void)sightings_->see(2, 0, 3.5);
+  // 1 - P after steps 1 to 4: 0.75, 0.5, 0.5, 0.
+  EXPECT_DOUBLE_EQ(score().expected_time_s, 1.75);
+  EXPECT_DOUBLE_EQ(score().expected_time_continuous_s, 0.25 * 1.5 + 0.5 * 3.5);
+  EXPECT_DOUBLE_EQ(score().horizon_s, 3.5);
+}
+
+TEST_F(ExpectedTimeTest, CountsWhatStaysUnseenUpToTheHorizon) {
+  masses({0.5, 0.3, 0.2});
+  (void)sightings_->see(0, 0, 2.0);
+  (void)sightings_->see(1, 1, 4.5);
+  // 1 - P after steps 1 to 5: 1, 0.5, 0.5, 0.5, 0.2.
+  EXPECT_DOUBLE_EQ(score().expected_time_s, 2.7);
+  EXPECT_DOUBLE_EQ(score().expected_time_continuous_s, 0.5 * 2.0 + 0.3 * 4.5 + 0.2 * 4.5);
+  EXPECT_DOUBLE_EQ(score().unseen_mass, 0.2);
+  EXPECT_FALSE(score().complete);
+  EXPECT_TRUE(score(0.2).complete);
+  EXPECT_FALSE(score(0.199).complete);
+}
+
+TEST_F(ExpectedTimeTest, CreditsEachSubPriorWithItsOwnAgentsSightingsOverAFixedTime) {
+  masses({0.5, 0.3, 0.2});
+  belief_->has_sub_priors = true;
+  belief_->sub_prior_steps = 10;
+  belief_->sub_mass[0] = {0.5, 0.0, 0.0};
+  belief_->sub_mass[1] = {0.0, 0.3, 0.2};
+  (void)sightings_->see(0, 0, 2.0);  // its own: half is found after step 2
+  (void)sightings_->see(1, 0, 3.0);  // the other's: gone unfound
+  (void)sightings_->see(2, 1, 4.0);  // its own: a fifth after step 4
+  // 1 - P_EST: 1, 0.5, 0.5, then 0.3 for steps 4 to 10.
+  EXPECT_NEAR(score().expected_sub_prior_time_s, 2.0 + 7 * 0.3, 1e-12);
+  EXPECT_DOUBLE_EQ(score().unseen_mass, 0.0);
+}
+
+TEST_F(ExpectedTimeTest, LeavesOutOfTheSubPriorTimeWhatIsSeenAfterItsEnd) {
+  masses({0.5, 0.5});
+  belief_->has_sub_priors = true;
+  belief_->sub_prior_steps = 3;
+  belief_->sub_mass[0] = {0.5, 0.0};
+  belief_->sub_mass[1] = {0.0, 0.5};
+  (void)sightings_->see(0, 0, 1.0);
+  (void)sightings_->see(1, 1, 8.0);
+  EXPECT_DOUBLE_EQ(score().expected_sub_prior_time_s, 1.5);
+}
+
+TEST_F(ExpectedTimeTest, EndsAPathWhereItsAgentLastSeesSomethingNew) {
+  masses({0.4, 0.3, 0.3});
+  (void)sightings_->see(0, 0, 1.0);
+  (void)sightings_->see(1, 1, 3.2);
+  (void)sightings_->see(1, 0, 3.7);  // credited, for it is the lower number in that step
+  (void)sightings_->see(2, 1, 2.0);
+  (void)sightings_->see(2, 0, 9.0);  // nothing new
+  ExpectedTime expected;
+  expected.add(*belief_, *sightings_, 0, 3);
+  EXPECT_EQ(expected.path_end_s(0), 3.7);
+  EXPECT_EQ(expected.path_end_s(1), 3.2);
+  expected.clear();
+  EXPECT_EQ(expected.path_end_s(0), 0.0);
+}
+
+TEST_F(ExpectedTimeTest, IsTheSameToTheBitHoweverItIsSliced) {
+  std::vector<double> uneven;
+  for (int c = 0; c < 97; ++c) {
+    uneven.push_back(1.0 / (c + 3.0));
+    (void)sightings_->see(c, c % 2, 0.37 * c);
+  }
+  masses(uneven);
+  const PlanScore whole = score();
+  for (const int slice : {1, 2, 7, 50}) {
+    EXPECT_EQ(score(0.014, slice).expected_time_s, whole.expected_time_s);
+    EXPECT_EQ(score(0.014, slice).expected_time_continuous_s, whole.expected_time_continuous_s);
+  }
+}
+
+TEST(Completeness, IsNotDecidedByTheRoundingOfASum) {
+  double down = 1.0;
+  for (int i = 0; i < 986; ++i) {
+    down -= 0.001;
+  }
+  EXPECT_TRUE(is_complete(down, 0.014));
+  EXPECT_TRUE(is_complete(1.0 - 0.986, 0.014));
+  EXPECT_FALSE(is_complete(0.0141, 0.014));
+}
+
+}  // namespace
+}  // namespace ivo::planner
