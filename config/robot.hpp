@@ -27,7 +27,7 @@ struct BaseParameters {
 };
 
 struct MotionLimits {
-  double max_speed_mps = 0.5;  ///< along the path (the paper's plan speed)
+  double max_speed_mps = 0.5;  ///< along the path, whatever the mission says
   double max_turn_radps = 1.0;
   double max_accel_mps2 = 0.5;  ///< speeding up and planned slowing down
   double max_turn_accel_radps2 = 1.5;

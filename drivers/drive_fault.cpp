@@ -1,73 +1,6 @@
 #include "drivers/drive_fault.hpp"
 
-#include <array>
-#include <cstdio>
-#include <string_view>
-
-#include "drivers/canopen/sdo_abort.hpp"
-
 namespace ivo::drivers {
-namespace {
-
-std::string hexadecimal(std::uint32_t code, int digits) {
-  std::array<char, 16> text{};
-  std::snprintf(text.data(), text.size(), "%0*Xh", digits, code);
-  return text.data();
-}
-
-std::string_view name_of(Wheel wheel) noexcept {
-  switch (wheel) {
-    case Wheel::kFrontLeft:
-      return "front left";
-    case Wheel::kFrontRight:
-      return "front right";
-    case Wheel::kRearLeft:
-      return "rear left";
-    case Wheel::kRearRight:
-      return "rear right";
-  }
-  return "unknown wheel";
-}
-
-std::string reason_of(const DriveFault& fault) {
-  switch (fault.reason) {
-    case DriveFaultReason::kNone:
-      return "no fault";
-    case DriveFaultReason::kSdoAborted:
-      return "SDO abort " + hexadecimal(fault.code, 8) + ", " + std::string(name_of(SdoAbort{fault.code}));
-    case DriveFaultReason::kSdoTimedOut:
-      return "no SDO answer";
-    case DriveFaultReason::kNoAnswer:
-      return "neither a boot-up message nor an SDO answer: is it powered, on this bus and set to this node-id?";
-    case DriveFaultReason::kUnexpectedValue:
-      return "unexpected value " + hexadecimal(fault.code, 8);
-    case DriveFaultReason::kNotOperational:
-      return "no heartbeat said Operational (NMT state " + hexadecimal(fault.code, 2) + ")";
-    case DriveFaultReason::kRebooted:
-      return "rebooted";
-    case DriveFaultReason::kEmergency:
-      return "emergency " + hexadecimal(fault.code, 4);
-    case DriveFaultReason::kLeftOperational:
-      return "left NMT state Operational (now " + hexadecimal(fault.code, 2) + ")";
-    case DriveFaultReason::kHeartbeatLost:
-      return "heartbeat lost";
-    case DriveFaultReason::kFeedbackLost:
-      return "feedback lost: TPDO1 does not arrive";
-    case DriveFaultReason::kDriveInFault:
-      return "in fault (statusword " + hexadecimal(fault.code, 4) + ")";
-    case DriveFaultReason::kLeftOperationEnabled:
-      return "left Operation Enabled unasked (statusword " + hexadecimal(fault.code, 4) + ")";
-    case DriveFaultReason::kStateChangeTimedOut:
-      return "did not change its power state in time (statusword " + hexadecimal(fault.code, 4) + ")";
-    case DriveFaultReason::kNotStill:
-      return "wheel not at rest in time after a stop";
-    case DriveFaultReason::kFaultResetFailed:
-      return "fault could not be reset (statusword " + hexadecimal(fault.code, 4) + ")";
-  }
-  return "unknown fault";
-}
-
-}  // namespace
 
 bool needs_start_up(DriveFaultReason reason) noexcept {
   switch (reason) {
@@ -91,15 +24,6 @@ bool needs_start_up(DriveFaultReason reason) noexcept {
       break;
   }
   return false;
-}
-
-std::string describe(const DriveFault& fault) {
-  if (fault.reason == DriveFaultReason::kNone) {
-    return reason_of(fault);
-  }
-  const std::string drive = "drive " + std::to_string(fault.node_id) + " (" + std::string(name_of(fault.wheel)) + ")";
-  const std::string step = *fault.step == '\0' ? "" : " failed at \"" + std::string(fault.step) + "\"";
-  return drive + step + ": " + reason_of(fault);
 }
 
 }  // namespace ivo::drivers

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 
 #include "config/robot.hpp"
 
@@ -40,9 +39,5 @@ struct DriveFault {
 
 /// True when only a new start-up of the drives can clear `reason`: what the drive was told may be forgotten.
 [[nodiscard]] bool needs_start_up(DriveFaultReason reason) noexcept;
-
-/// One line for a person, as: drive 3 (rear left) failed at "mode of operation 6061h": SDO abort 06090030h, value range
-/// exceeded. Outside of the loop only: it allocates.
-[[nodiscard]] std::string describe(const DriveFault& fault);
 
 }  // namespace ivo::drivers

@@ -14,7 +14,7 @@ constexpr Duration kPositionEvery = 200ms;  // in the event log
 // After this long in an end mode nobody waits for the drives any more: they stop by our missing heartbeat.
 constexpr Duration kGiveUp = rates::kStandstillTimeout + rates::kStateChangeTimeout;
 
-// The plan is made for a speed; the robot may not go faster than it, nor than its own limit.
+// The mission says how fast the robot searches; nothing may drive it faster.
 MotionLimits planned_limits(const LoopSetup& setup) noexcept {
   MotionLimits limits = setup.robot.limits;
   limits.max_speed_mps = std::min(limits.max_speed_mps, setup.searchers[0].speed_mps);
@@ -31,7 +31,7 @@ ControlLoop::ControlLoop(const LoopSetup& setup, planner::Planner& planner, hal:
       odometry_(kinematics_),
       limiter_(planned_limits(setup)),
       follower_(planned_limits(setup)),
-      gate_(setup.robot.limits, rates::kFeedbackTimeout),
+      gate_(planned_limits(setup), rates::kFeedbackTimeout),
       search_(planner.cells(), setup.searchers),
       object_(setup.object),
       start_(setup.start) {

@@ -24,12 +24,6 @@ void SearchRun::start(Instant now, const planner::Plan& plan, const SearchObject
   }
 }
 
-void SearchRun::move(std::size_t agent, Point to) noexcept {
-  AgentTrack& track = tracks_[agent];
-  track.moved_m += std::hypot(to.x_m - track.position.x_m, to.y_m - track.position.y_m);
-  track.position = to;
-}
-
 void SearchRun::update(Instant now, Point robot, bool robot_path_ended) noexcept {
   if (state_ != SearchState::kRunning) {
     return;
@@ -41,12 +35,12 @@ void SearchRun::update(Instant now, Point robot, bool robot_path_ended) noexcept
   for (std::size_t m = 0; m < searchers_.size(); ++m) {
     const Searcher& searcher = searchers_[m];
     if (searcher.kind == AgentKind::kRobot) {
-      move(m, robot);
+      tracks_[m].moved_m += std::hypot(robot.x_m - tracks_[m].position.x_m, robot.y_m - tracks_[m].position.y_m);
+      tracks_[m].position = robot;
       tracks_[m].path_ended = robot_path_ended;
     } else if (searcher.motion == PersonMotion::kSimulated) {
       persons_[m].walk(dt);
-      move(m, persons_[m].position());
-      tracks_[m].path_ended = persons_[m].arrived();
+      tracks_[m] = {persons_[m].position(), persons_[m].walked_m(), persons_[m].arrived()};
     } else {
       tracks_[m].path_ended = true;  // a reported person may stop anywhere: the paths of the others decide
     }

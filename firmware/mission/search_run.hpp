@@ -52,8 +52,6 @@ class SearchRun {
   [[nodiscard]] int agents() const noexcept { return static_cast<int>(searchers_.size()); }
 
  private:
-  void move(std::size_t agent, Point to) noexcept;
-
   const planner::Cells& cells_;
   Searchers searchers_;
   SearchObject object_;

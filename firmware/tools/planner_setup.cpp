@@ -146,6 +146,10 @@ Result<MissionInputs> read_inputs(const std::string& mission_path) {
     return robot.error();
   }
   inputs.robot = std::move(robot).value();
+  if (const double most = inputs.robot.limits.max_speed_mps; mission.agents.front().speed_mps > most) {
+    return inputs.file.lines.at("agent[0].speed_mps", "is faster than the robot may drive; expected at most " +
+                                                          shortest(most) + ", limits.max_speed_mps of its file");
+  }
 
   if (const auto* image = std::get_if<ImagePrior>(&mission.prior)) {
     Result<GreyImage> grey = read_grey(image->image_path);

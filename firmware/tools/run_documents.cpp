@@ -3,6 +3,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "drivers/drive_fault_text.hpp"
+
 namespace ivo::firmware {
 namespace {
 

@@ -77,10 +77,6 @@ void RunTerminal::show_mission(const std::string& bus) const {
       say("note", mission.agents[m].name + " has no probability of its own left and searches the whole prior");
     }
   }
-  const double robot_mps = run_.inputs.robot.limits.max_speed_mps;
-  if (const AgentSpec& robot = mission.agents.front(); robot.speed_mps > robot_mps) {
-    say("note", robot.name + format(" drives at most %.2f m/s; the plan assumes %.2f m/s", robot_mps, robot.speed_mps));
-  }
   say("bus", bus);
 }
 

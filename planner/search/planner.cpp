@@ -7,8 +7,8 @@
 namespace ivo::planner {
 namespace {
 
-constexpr double kSubPriorHorizon =
-    4.0;  // K is four times the least time in which the team could sweep what it can observe
+// K is four times the least time in which the team could sweep what it can observe.
+constexpr double kSubPriorHorizon = 4.0;
 
 void fill_prior(const Cells& cells, const PriorChoice& prior, std::span<double> mass) noexcept {
   if (const auto* components = std::get_if<std::span<const GaussianComponent>>(&prior)) {

@@ -29,6 +29,10 @@ class Words(unittest.TestCase):
         self.refuses("planner/a.cpp", "auto t = std::chrono::steady_clock::now();", "steady_clock::now(: a clock of its own")
         self.accepts("drivers/a.cpp", "auto t = clock.now();")
 
+    def test_accepts_text_only_in_a_file_of_that_name_which_no_bounded_file_includes(self):
+        self.accepts("drivers/fault_text.cpp", '#include "drivers/fault_text.hpp"\nstd::string s;')
+        self.refuses("drivers/a.cpp", '#include "drivers/fault_text.hpp"', "drivers/fault_text.hpp: text formatting")
+
     def test_accepts_them_elsewhere(self):
         self.accepts("firmware/files/a.cpp", "std::vector<std::string> v; throw 3;")
 

@@ -33,6 +33,8 @@ CASES = {
     "a wrong type": (MISSION.replace("seed = 3", 'seed = "three"'), None, ["mission.toml:3:", "seed"]),
     "a wrong unit": (MISSION + "speed_kmh = 2.0\n", None, ["mission.toml:25:", "speed_kmh", "speed_mps", "metres a second"]),
     "out of range": (LAST_SPEED + "50.0\n", None, ["mission.toml:24:", "speed_mps", "50", "expected"]),
+    "a robot faster than it can": (MISSION.replace("speed_mps = 0.5", "speed_mps = 2.5", 1), None,
+                                   ["mission.toml:17: agent[0].speed_mps", "at most 1"]),
     "no number": (LAST_SPEED + "nan\n", None, ["mission.toml:24:", "speed_mps"]),
     "no TOML": (MISSION.replace("seed = 3", "seed = = 3"), None, ["mission.toml:3:"]),
     "a map that is not there": (MISSION.replace("map.toml", "other.toml"), None, ["other.toml"]),

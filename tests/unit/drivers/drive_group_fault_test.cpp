@@ -3,6 +3,7 @@
 
 #include "drivers/canopen/emcy.hpp"
 #include "drivers/canopen/nmt.hpp"
+#include "drivers/drive_fault_text.hpp"
 #include "tests/unit/drivers/rig.hpp"
 
 namespace ivo::drivers {

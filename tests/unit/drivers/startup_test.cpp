@@ -6,6 +6,7 @@
 #include "drivers/canopen/communication_objects.hpp"
 #include "drivers/canopen/sdo_frame.hpp"
 #include "drivers/cia402/objects.hpp"
+#include "drivers/drive_fault_text.hpp"
 #include "tests/unit/drivers/rig.hpp"
 
 namespace ivo::drivers {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -20,6 +21,10 @@ class ExpectedTimeTest : public testing::Test {
       belief_->mass[c] = masses[c];
       belief_->mass_cells[c] = static_cast<Cell>(c);
     }
+  }
+
+  void sub_prior(std::size_t agent, const std::vector<double>& masses) {
+    std::copy(masses.begin(), masses.end(), belief_->sub_mass[agent].begin());
   }
 
   PlanScore score(double max_unseen_mass = 0.014, int slice = 100) {
@@ -72,8 +77,8 @@ TEST_F(ExpectedTimeTest, CreditsEachSubPriorWithItsOwnAgentsSightingsOverAFixedT
   masses({0.5, 0.3, 0.2});
   belief_->has_sub_priors = true;
   belief_->sub_prior_steps = 10;
-  belief_->sub_mass[0] = {0.5, 0.0, 0.0};
-  belief_->sub_mass[1] = {0.0, 0.3, 0.2};
+  sub_prior(0, {0.5, 0.0, 0.0});
+  sub_prior(1, {0.0, 0.3, 0.2});
   (void)sightings_->see(0, 0, 2.0);  // its own: half is found after step 2
   (void)sightings_->see(1, 0, 3.0);  // the other's: gone unfound
   (void)sightings_->see(2, 1, 4.0);  // its own: a fifth after step 4
@@ -86,8 +91,8 @@ TEST_F(ExpectedTimeTest, LeavesOutOfTheSubPriorTimeWhatIsSeenAfterItsEnd) {
   masses({0.5, 0.5});
   belief_->has_sub_priors = true;
   belief_->sub_prior_steps = 3;
-  belief_->sub_mass[0] = {0.5, 0.0};
-  belief_->sub_mass[1] = {0.0, 0.5};
+  sub_prior(0, {0.5, 0.0});
+  sub_prior(1, {0.0, 0.5});
   (void)sightings_->see(0, 0, 1.0);
   (void)sightings_->see(1, 1, 8.0);
   EXPECT_DOUBLE_EQ(score().expected_sub_prior_time_s, 1.5);
