@@ -128,6 +128,7 @@ TEST(Colony, NeverTradesACompletePlanForAnIncompleteOneNorALessUnseenForAMore) {
       before = now;
       had_plan = true;
     }
+    EXPECT_TRUE(before.complete) << "seed " << seed;  // a dearer complete plan takes the place of an incomplete one
   }
   EXPECT_GT(completed_later, 0);
   EXPECT_GT(improved_incomplete, 0);

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "planner/world/collision.hpp"
+#include "tests/support/areas.hpp"
 #include "tests/support/drawn_map.hpp"
 
 namespace ivo::planner {
@@ -22,14 +23,6 @@ GraphAgents agents_at(std::initializer_list<Point> starts) {
     EXPECT_TRUE(agents.push_back(agent));
   }
   return agents;
-}
-
-Area rectangle(double x0, double y0, double x1, double y1) {
-  Area area;
-  for (const Point p : {Point{x0, y0}, Point{x1, y0}, Point{x1, y1}, Point{x0, y1}}) {
-    EXPECT_TRUE(area.push_back(p));
-  }
-  return area;
 }
 
 Graph& graph_of(const DrawnMap& map, const GraphParameters& parameters, const GraphAgents& agents) {
@@ -223,7 +216,7 @@ TEST(Graph, LetsAPersonUseStairsThatARobotMayNot) {
 TEST(Graph, KeepsAnAgentOutOfItsOwnRestrictedAreasOnly) {
   GraphAgents agents = agents_at({{1.25, 1.25}, {3.75, 1.25}});
   ASSERT_TRUE(
-      agents[0].restricted.push_back(rectangle(9.5, -1.0, 9.8, 11.0)));  // no node inside, but every path crosses
+      agents[0].restricted.push_back(test::rectangle(9.5, -1.0, 9.8, 11.0)));  // no node inside, but every path crosses
   const Graph& graph = graph_of(DrawnMap(20.0, 10.0, 0.25), {2.5, 0.4}, agents);
   EXPECT_EQ(graph.nodes_reached_by(0), 16);
   EXPECT_EQ(graph.nodes_reached_by(1), 32);
