@@ -75,14 +75,14 @@ void add_supervision(StartupSteps& steps, std::uint8_t master_node_id) noexcept 
 }
 
 struct PdoNames {
-  const char* disable;
-  const char* clear;
-  const char* first;
-  const char* second;
-  const char* count;
-  const char* check;
-  const char* type;
-  const char* enable;
+  const char* disable = "";
+  const char* clear = "";
+  const char* first = "";
+  const char* second = "";
+  const char* count = "";
+  const char* check = "";
+  const char* type = "";
+  const char* enable = "";
 };
 
 struct PdoSteps {
@@ -90,9 +90,9 @@ struct PdoSteps {
   ObjectAddress cob_id_object;
   ObjectAddress type_object;
   ObjectAddress count_object;
-  std::uint32_t cob_id;
-  std::uint32_t first;
-  std::uint32_t second;
+  std::uint32_t cob_id = 0;
+  std::uint32_t first = 0;
+  std::uint32_t second = 0;
 };
 
 void add_pdo(StartupSteps& steps, const PdoSteps& pdo) noexcept {

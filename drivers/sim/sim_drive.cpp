@@ -26,7 +26,7 @@ constexpr std::uint16_t kLastCommunicationIndex = 0x1FFF;
 
 struct MappedObject {
   ObjectAddress address;
-  std::uint8_t bits;
+  std::uint8_t bits = 0;
 };
 
 MappedObject unpack(std::uint32_t entry) noexcept {
@@ -225,8 +225,9 @@ void SimDrive::apply_rpdo(const hal::CanFrame& frame, Outbox& out) noexcept {
   }
   std::span<const std::uint8_t> bytes(frame.data);
   bool controlled = false;
-  for (std::uint8_t n = 1; n <= objects_.get(object::kRpdo1Count); ++n) {
-    const MappedObject mapped = unpack(objects_.get(object::mapping_entry(object::kRpdo1Count, n)));
+  for (std::uint32_t n = 1; n <= objects_.get(object::kRpdo1Count); ++n) {
+    const MappedObject mapped =
+        unpack(objects_.get(object::mapping_entry(object::kRpdo1Count, static_cast<std::uint8_t>(n))));
     std::uint32_t value = 0;
     for (std::size_t i = 0; i < mapped.bits / 8U; ++i) {
       value |= std::uint32_t{bytes[i]} << (8 * i);
@@ -253,8 +254,9 @@ void SimDrive::command(std::uint16_t controlword, Outbox& out) noexcept {
 void SimDrive::send_tpdo(Outbox& out) noexcept {
   refresh_actual_values();
   hal::CanFrame frame{.id = id_of(objects_.get(object::kTpdo1CobId)), .size = 0, .data = {}};
-  for (std::uint8_t n = 1; n <= objects_.get(object::kTpdo1Count); ++n) {
-    const MappedObject mapped = unpack(objects_.get(object::mapping_entry(object::kTpdo1Count, n)));
+  for (std::uint32_t n = 1; n <= objects_.get(object::kTpdo1Count); ++n) {
+    const MappedObject mapped =
+        unpack(objects_.get(object::mapping_entry(object::kTpdo1Count, static_cast<std::uint8_t>(n))));
     const std::uint32_t value = objects_.get(mapped.address);
     for (std::size_t i = 0; i < mapped.bits / 8U; ++i) {
       frame.data[frame.size++] = static_cast<std::uint8_t>(value >> (8 * i));
@@ -265,8 +267,8 @@ void SimDrive::send_tpdo(Outbox& out) noexcept {
 
 int SimDrive::mapped_bits(ObjectAddress count) const noexcept {
   int bits = 0;
-  for (std::uint8_t n = 1; n <= objects_.get(count); ++n) {
-    bits += unpack(objects_.get(object::mapping_entry(count, n))).bits;
+  for (std::uint32_t n = 1; n <= objects_.get(count); ++n) {
+    bits += unpack(objects_.get(object::mapping_entry(count, static_cast<std::uint8_t>(n)))).bits;
   }
   return bits;
 }

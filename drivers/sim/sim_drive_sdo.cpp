@@ -115,8 +115,8 @@ std::optional<SdoAbort> SimDrive::mapping_refusal(ObjectAddress address, std::ui
     return SdoAbort::kValueTooHigh;
   }
   std::uint32_t bits = 0;
-  for (std::uint8_t n = 1; n <= value; ++n) {
-    const std::uint32_t entry = objects_.get(object::mapping_entry(count, n));
+  for (std::uint32_t n = 1; n <= value; ++n) {
+    const std::uint32_t entry = objects_.get(object::mapping_entry(count, static_cast<std::uint8_t>(n)));
     if (entry == 0) {
       return SdoAbort::kNotMappable;
     }

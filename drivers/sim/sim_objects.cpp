@@ -17,9 +17,9 @@ constexpr std::uint8_t kEventDriven = 255;
 
 struct Object {
   ObjectAddress address;
-  std::uint8_t bytes;
-  ObjectAccess access;
-  std::uint32_t value;
+  std::uint8_t bytes = 0;
+  ObjectAccess access{};
+  std::uint32_t value = 0;
 };
 
 void add(ObjectDictionary& objects, const Object& object) noexcept {

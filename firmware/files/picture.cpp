@@ -66,6 +66,7 @@ class Scene {
   }
   [[nodiscard]] std::vector<Point> on_sheet(const std::vector<Point>& line) const {
     std::vector<Point> moved;
+    moved.reserve(line.size());
     for (const Point p : line) {
       moved.push_back(on_sheet(p));
     }
@@ -213,7 +214,8 @@ void draw_legend(Pen& pen, const LegendBlock& block, double scale_px) {
   const double width = block.box.width / block.columns;
   for (std::size_t i = 0; i < block.rows.size(); ++i) {
     const LegendRow& row = block.rows[i];
-    const Point at = {block.box.x + static_cast<double>(i / lines) * width,
+    const std::size_t column = i / lines;
+    const Point at = {block.box.x + static_cast<double>(column) * width,
                       block.box.y + PictureLayout::kHeadingHeight +
                           (static_cast<double>(i % lines) + 0.5) * PictureLayout::kRowHeight};
     if (row.symbol == Symbol::kHeat) {

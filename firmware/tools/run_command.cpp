@@ -44,6 +44,9 @@ void listen_for_stop_signals() {
   action.sa_handler = on_stop_signal;  // without SA_RESTART: a wait for an answer ends
   (void)sigaction(SIGINT, &action, nullptr);
   (void)sigaction(SIGTERM, &action, nullptr);
+  (void)sigaction(SIGHUP, &action, nullptr);
+  action.sa_handler = SIG_IGN;  // a reader of our output that goes away does not end a search
+  (void)sigaction(SIGPIPE, &action, nullptr);
 }
 
 int refuse(const Error& error) {

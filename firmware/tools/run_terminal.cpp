@@ -73,6 +73,9 @@ void RunTerminal::show_mission(const std::string& bus) const {
              run_.planner.graph().nodes(), mission.planner.spacing_m, run_.planner.graph().edges(),
              run_.planner.cells().count(), mission.planner.cell_m, 100 * run_.planner.belief().unobservable_share));
   for (std::size_t m = 0; m < mission.agents.size(); ++m) {
+    if (run_.planner.graph().nodes_reached_by(static_cast<int>(m)) == 1) {
+      say("note", mission.agents[m].name + " can go nowhere from its start and searches what it sees from there");
+    }
     if (planner::in(run_.planner.left_without_sub_prior(), static_cast<int>(m))) {
       say("note", mission.agents[m].name + " has no probability of its own left and searches the whole prior");
     }

@@ -17,7 +17,7 @@ constexpr double kHalfHeight = 0.5;
 struct Capsule {
   Point a;
   Point b;
-  double radius_m;
+  double radius_m = 0.0;
 };
 
 struct Box {
