@@ -5,10 +5,9 @@
 #include <span>
 
 #include "firmware/tools/drives_command.hpp"
+#include "firmware/tools/exit_status.hpp"
 
 namespace {
-
-constexpr int kWrongInput = 2;
 
 std::atomic<bool> stop{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it");
@@ -17,7 +16,7 @@ void on_signal(int) { stop.store(true, std::memory_order_relaxed); }
 
 int refuse(const ivo::Error& error) {
   std::cerr << "ivo-drives: " << error.message << '\n';
-  return kWrongInput;
+  return ivo::firmware::exit_status::kWrongInput;
 }
 
 }  // namespace

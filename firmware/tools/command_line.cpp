@@ -3,12 +3,11 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include "firmware/tools/exit_status.hpp"
 #include "firmware/tools/run_options.hpp"
 
 namespace ivo::firmware {
 namespace {
-
-constexpr int kWrongInput = 2;
 
 // "max" or a factor of real time.
 std::string read_speed(const std::string& text, RunOptions& options) {
@@ -58,7 +57,7 @@ int command_line(int argc, const char* const* argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kWrongInput;
+    return app.exit(error) == 0 ? 0 : exit_status::kWrongInput;
   }
   run_options.lock_step = clock == "sync";
   return run(run_options);

@@ -11,6 +11,7 @@
 #include "firmware/loop/control_loop.hpp"
 #include "firmware/loop/scheduler.hpp"
 #include "firmware/tools/event_log.hpp"
+#include "firmware/tools/exit_status.hpp"
 #include "firmware/tools/planner_setup.hpp"
 #include "firmware/tools/run_documents.hpp"
 #include "firmware/tools/run_options.hpp"
@@ -19,11 +20,6 @@
 
 namespace ivo::firmware {
 namespace {
-
-constexpr int kEnded = 0;
-constexpr int kFaultOrStop = 1;
-constexpr int kWrongInput = 2;
-constexpr int kNoConsent = 3;
 
 constexpr int kObserveEveryMs = 50;
 constexpr int kObserveEveryCycles = 25;
@@ -52,7 +48,7 @@ void listen_for_stop_signals() {
 int refuse(const Error& error) {
   (void)std::fflush(stdout);
   (void)std::fprintf(stderr, "ivo: %s\n", error.message.c_str());
-  return kWrongInput;
+  return exit_status::kWrongInput;
 }
 
 SearchObject object_of(const Mission& mission, const planner::Planner& planner) {
@@ -132,19 +128,19 @@ class Run {
     }
     terminal_.show_file(path_of("events.jsonl"));
     if (write_failed_) {
-      return kFaultOrStop;
+      return exit_status::kFaultOrStop;
     }
     switch (outcome.end) {
       case RunEnd::kFound:
       case RunEnd::kPathsEnded:
-        return kEnded;
+        return exit_status::kEnded;
       case RunEnd::kNoConsent:
-        return kNoConsent;
+        return exit_status::kNoConsent;
       case RunEnd::kStopped:
       case RunEnd::kFault:
         break;
     }
-    return kFaultOrStop;
+    return exit_status::kFaultOrStop;
   }
 
   [[nodiscard]] std::string path_of(const char* name) const { return options_.out + "/" + name; }

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <bit>
 
+#include "planner/numeric/index.hpp"
+
 namespace ivo::planner {
 namespace {
-
-std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
 
 Refusal check_areas(const Cells& cells, const SightTable& sight, const PreferredAreas& preferred,
                     const Belief& belief) noexcept {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 
+#include "planner/numeric/index.hpp"
 #include "planner/numeric/rng.hpp"
 #include "planner/search/belief.hpp"
 #include "planner/search/expected_time.hpp"
@@ -57,8 +58,6 @@ class Ant {
 
  private:
   enum class Phase : std::uint8_t { kChooseAgent, kChooseNode, kJump, kMove, kScore, kDone };
-
-  static std::size_t index(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 
   int choose_agent(Rng& rng) noexcept;
   int choose_node(Rng& rng) noexcept;

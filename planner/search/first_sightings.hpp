@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "config/limits.hpp"
+#include "planner/numeric/index.hpp"
 #include "planner/world/cells.hpp"
 
 namespace ivo::planner {
@@ -61,8 +62,6 @@ class FirstSightings {
     Sighting sighting;
     std::uint32_t epoch = 0;  // the sighting counts when it is the present one
   };
-
-  static std::size_t index(Cell c) noexcept { return static_cast<std::size_t>(c); }
 
   static void merge(Sighting& s, std::uint8_t who, double time_s) noexcept {
     const std::int32_t step = step_of(time_s);

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "config/limits.hpp"
+#include "planner/numeric/index.hpp"
 #include "planner/world/graph.hpp"
 
 namespace ivo::planner {
@@ -26,7 +27,6 @@ class JumpSearch {
   [[nodiscard]] int work() const noexcept { return work_; }  ///< edges looked at since start
 
  private:
-  static std::size_t index(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
   static constexpr std::int32_t kOutside = -1;
   static constexpr std::int32_t kSettled = -2;
 

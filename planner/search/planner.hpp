@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <variant>
 
+#include "planner/numeric/index.hpp"
 #include "planner/prior/preferences.hpp"
 #include "planner/prior/prior.hpp"
 #include "planner/refusal.hpp"
@@ -88,8 +89,6 @@ class Planner {
  private:
   static constexpr int kRowsAPart = 256;
   enum class Phase : std::uint8_t { kAnts, kRaise, kEvaporate, kClamp, kDone };
-
-  static std::size_t index(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 
   void start_colony() noexcept;
   int advance() noexcept;

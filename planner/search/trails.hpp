@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "config/limits.hpp"
+#include "planner/numeric/index.hpp"
 #include "planner/world/graph.hpp"
 
 namespace ivo::planner {
@@ -36,8 +37,6 @@ class Trails {
   [[nodiscard]] double tau_max() const noexcept { return tau_max_; }
 
  private:
-  static std::size_t index(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
-
   int edges_ = 0;
   int agents_ = 0;
   double rho_ = 0.0;

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "config/limits.hpp"
+#include "planner/numeric/index.hpp"
 #include "planner/refusal.hpp"
 #include "planner/world/segmented_map.hpp"
 
@@ -49,7 +50,6 @@ class Cells {
  private:
   static constexpr std::uint8_t kObstacle = 1;
   static constexpr std::uint8_t kOccluder = 2;
-  static std::size_t index(Cell c) noexcept { return static_cast<std::size_t>(c); }
   // Occluders below row `row` and left of column `column`.
   [[nodiscard]] std::int32_t sum_at(int column, int row) const noexcept {
     return column == 0 || row == 0 ? 0 : occluder_sums_[index(at(column - 1, row - 1))];

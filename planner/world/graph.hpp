@@ -9,6 +9,7 @@
 
 #include "config/base/static_vector.hpp"
 #include "config/limits.hpp"
+#include "planner/numeric/index.hpp"
 #include "planner/refusal.hpp"
 #include "planner/world/polygon.hpp"
 #include "planner/world/segmented_map.hpp"
@@ -65,8 +66,6 @@ class Graph {
   [[nodiscard]] Edge find(Node a, Node b) const noexcept;
 
  private:
-  static std::size_t index(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
-
   [[nodiscard]] Refusal place_starts(const SegmentedMap& map, const GraphAgents& agents) noexcept;
   [[nodiscard]] Refusal place_nodes(const SegmentedMap& map, const GraphParameters& parameters) noexcept;
   [[nodiscard]] Refusal connect(const SegmentedMap& map, const GraphAgents& agents) noexcept;

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 
+#include "planner/numeric/index.hpp"
 #include "planner/world/visibility.hpp"
 
 namespace ivo::planner {
 namespace {
-
-std::size_t index(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 
 constexpr std::int16_t kUnseen = -1;
 
