@@ -24,14 +24,16 @@ struct BaseParameters {
   double half_length_m = 0.20;  ///< lx: centre to axle, along x
   double half_width_m = 0.20;   ///< ly: centre to wheel, along y
   double max_wheel_radps = 15.0;
+  friend bool operator==(const BaseParameters&, const BaseParameters&) = default;
 };
 
 struct MotionLimits {
-  double max_speed_mps = 0.5;  ///< along the path, whatever the mission says
+  double max_speed_mps = 1.0;  ///< along the path, whatever the mission says
   double max_turn_radps = 1.0;
   double max_accel_mps2 = 0.5;  ///< speeding up and planned slowing down
   double max_turn_accel_radps2 = 1.5;
   double stop_decel_mps2 = 1.0;  ///< ramp of an unplanned stop
+  friend bool operator==(const MotionLimits&, const MotionLimits&) = default;
 };
 
 struct DriveParameters {
@@ -43,16 +45,21 @@ struct DriveParameters {
       651.8986469044033;           ///< units of 60FFh for 1 rad/s at the motor; counts/s here: 4096 / (2 pi)
   std::uint32_t vendor_id = 0;     ///< expected 1018h:1, 0 accepts any
   std::uint32_t product_code = 0;  ///< expected 1018h:2, 0 accepts any
+  friend bool operator==(const DriveParameters&, const DriveParameters&) = default;
 };
 
+/// Without a file: an IVO-class base as config/robots/ivo.toml has it.
 struct Robot {
-  std::string name;
+  std::string name = "IVO";
   double footprint_radius_m = 0.30;
   BaseParameters base;
   MotionLimits limits;
   std::uint32_t bit_rate_bps = 1'000'000;
   std::uint8_t master_node_id = 127;
-  std::array<DriveParameters, kWheels> drives;
+  /// The right-hand wheels are mounted the other way round.
+  std::array<DriveParameters, kWheels> drives = {
+      {{.node_id = 1, .sign = 1}, {.node_id = 2, .sign = -1}, {.node_id = 3, .sign = 1}, {.node_id = 4, .sign = -1}}};
+  friend bool operator==(const Robot&, const Robot&) = default;
 };
 
 }  // namespace ivo

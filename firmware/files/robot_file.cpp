@@ -5,6 +5,7 @@
 #include <limits>
 #include <string_view>
 
+#include "config/rates.hpp"
 #include "firmware/files/number_text.hpp"
 #include "firmware/files/toml_table.hpp"
 
@@ -38,14 +39,19 @@ MotionLimits read_limits(const TomlValue& table) {
                   " is gentler than ordinary braking; expected at least max_accel_mps2, " +
                   shortest(limits.max_accel_mps2));
   }
+  const double most_s = seconds(rates::kStandstillTimeout) - 1.0;
+  if (stop.present() && limits.max_speed_mps > limits.stop_decel_mps2 * most_s) {
+    stop.complain(shortest(limits.stop_decel_mps2) + " does not stop the robot from max_speed_mps within " +
+                  shortest(most_s) + " s; expected at least " + shortest(limits.max_speed_mps / most_s));
+  }
   return limits;
 }
 
 /// At lower rates SYNC and the eight PDOs of four drives do not fit in a cycle of 2 ms.
 std::uint32_t read_bit_rate(const TomlValue& value) {
-  const std::int64_t rate = value.integer(500'000, 1'000'000);
-  if (value.present() && rate != 0 && rate != 500'000 && rate != 800'000 && rate != 1'000'000) {
-    value.complain(std::to_string(rate) + " is no CANopen bit rate; expected 500000, 800000 or 1000000");
+  const std::int64_t rate = value.integer(10'000, 1'000'000);
+  if (value.present() && rate != 0 && rate != 800'000 && rate != 1'000'000) {
+    value.complain(std::to_string(rate) + " does not carry four drives at 500 Hz; expected 800000 or 1000000");
   }
   return static_cast<std::uint32_t>(rate);
 }
@@ -65,6 +71,21 @@ DriveParameters read_drive(const TomlValue& table) {
   drive.vendor_id = static_cast<std::uint32_t>(table.optional("vendor_id").integer(0, kMost));
   drive.product_code = static_cast<std::uint32_t>(table.optional("product_code").integer(0, kMost));
   return drive;
+}
+
+// A target of 60FFh has 32 bits, and below some hundred units at full speed it would be too coarse to steer with.
+void refuse_units_that_do_not_fit(const TomlValue& drives, const Robot& robot) {
+  constexpr double kLeast = 100.0;
+  constexpr double kMost = std::numeric_limits<std::int32_t>::max();
+  for (std::size_t i = 0; i < kWheelKeys.size(); ++i) {
+    const DriveParameters& drive = robot.drives[i];
+    const double full_speed = robot.base.max_wheel_radps * drive.gear_ratio * drive.velocity_per_radps;
+    const TomlValue units = drives.optional(kWheelKeys[i]).optional("velocity_per_radps");
+    if (units.present() && (full_speed < kLeast || full_speed > kMost)) {
+      units.complain("makes base.max_wheel_radps " + shortest(full_speed) +
+                     " units of 60FFh; expected 100 to 2147483647 of them");
+    }
+  }
 }
 
 void refuse_shared_node_ids(const TomlValue& drives, const Robot& robot) {
@@ -107,6 +128,7 @@ Result<Robot> read_robot(const std::string& path) {
     robot.drives[i] = read_drive(drives.required(kWheelKeys[i]));
   }
   refuse_shared_node_ids(drives, robot);
+  refuse_units_that_do_not_fit(drives, robot);
   const Result<void> finish = toml.value().finish();
   if (!finish) {
     return finish.error();

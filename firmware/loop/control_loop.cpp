@@ -10,7 +10,8 @@ namespace {
 
 using std::chrono_literals::operator""ms;
 
-constexpr Duration kPositionEvery = 200ms;  // in the event log
+constexpr Duration kPositionEvery = 200ms;            // in the event log
+constexpr Duration kLongestStep = 2 * rates::kCycle;  // a late cycle must not let the velocity jump
 // After this long in an end mode nobody waits for the drives any more: they stop by our missing heartbeat.
 constexpr Duration kGiveUp = rates::kStandstillTimeout + rates::kStateChangeTimeout;
 
@@ -19,6 +20,10 @@ MotionLimits planned_limits(const LoopSetup& setup) noexcept {
   MotionLimits limits = setup.robot.limits;
   limits.max_speed_mps = std::min(limits.max_speed_mps, setup.searchers[0].speed_mps);
   return limits;
+}
+
+bool at_rest(const Twist& twist) noexcept {
+  return twist.vx_mps == 0.0 && twist.vy_mps == 0.0 && twist.wz_radps == 0.0;
 }
 
 }  // namespace
@@ -44,7 +49,7 @@ void ControlLoop::open(Instant now) noexcept {
 }
 
 void ControlLoop::cycle(Instant now, std::int64_t skipped) noexcept {
-  dt_ = now - now_;
+  dt_ = std::min(now - now_, kLongestStep);
   now_ = now;
   if (skipped > 0) {
     counters_.skipped += static_cast<std::uint64_t>(skipped);
@@ -62,13 +67,16 @@ void ControlLoop::cycle(Instant now, std::int64_t skipped) noexcept {
 
 void ControlLoop::take_commands() noexcept {
   consent_ = false;
+  StopCause cause = stop_requested_.load(std::memory_order_relaxed) ? StopCause::kAsked : StopCause::kNone;
   for (OperatorCommand command{}; commands_.pop(command);) {
-    if (command == OperatorCommand::kConsent) {
-      consent_ = true;
-    } else if (stop_cause_ == StopCause::kNone) {
-      stop_cause_ = command == OperatorCommand::kStop ? StopCause::kAsked : StopCause::kNoConsent;
-      record(EventKind::kStopAsked, 0, static_cast<std::int32_t>(stop_cause_));
+    consent_ = consent_ || command == OperatorCommand::kConsent;
+    if (command == OperatorCommand::kNoConsent && cause == StopCause::kNone) {
+      cause = StopCause::kNoConsent;
     }
+  }
+  if (cause != StopCause::kNone && stop_cause_ == StopCause::kNone) {
+    stop_cause_ = cause;
+    record(EventKind::kStopAsked, 0, static_cast<std::int32_t>(cause));
   }
 }
 
@@ -122,7 +130,7 @@ void ControlLoop::decide_mode() noexcept {
           .search_ended = search_.state() != SearchState::kRunning,
           .drives_ready = enabled || wheels_.state == GroupState::kReady || wheels_.state == GroupState::kEnabling,
           .drives_enabled = enabled,
-          .drives_standstill = wheels_.standstill,
+          .drives_standstill = wheels_.standstill && at_rest(moving_),
           .drives_fault = wheels_.state == GroupState::kFault || bus_.state() >= hal::BusState::kOff,
       },
       now_);

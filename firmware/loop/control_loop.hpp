@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 
 #include "config/base/latest.hpp"
 #include "config/base/spsc_ring.hpp"
@@ -45,6 +46,9 @@ class ControlLoop {
   [[nodiscard]] bool finished() const noexcept { return finished_; }
   /// For lock-step time: frames that the drives owe us outside of SYNC.
   [[nodiscard]] int answers_awaited() const noexcept { return drives_.answers_awaited(); }
+
+  /// From any thread and from a signal handler: the robot ramps down, the run ends.
+  void request_stop() noexcept { stop_requested_.store(true, std::memory_order_relaxed); }
 
   // To and from one other thread.
   bool command(OperatorCommand command) noexcept { return commands_.push(command); }
@@ -106,6 +110,8 @@ class ControlLoop {
   Latest<planner::Plan> shown_plan_;
   Latest<LoopStatus> status_;
   SpscRing<OperatorCommand, 16> commands_;
+  std::atomic<bool> stop_requested_{false};
+  static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it");
   EventRing events_;
 };
 

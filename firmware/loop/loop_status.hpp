@@ -44,7 +44,7 @@ struct LoopStatus {
   LoopCounters counters;
 };
 
-/// What the rest of the program may ask of the loop.
-enum class OperatorCommand : std::uint8_t { kConsent, kStop, kNoConsent };
+/// What the rest of the program may answer to the plans; stop is asked for by ControlLoop::request_stop.
+enum class OperatorCommand : std::uint8_t { kConsent, kNoConsent };
 
 }  // namespace ivo::firmware

@@ -17,8 +17,8 @@ class Scheduler {
   /// Periods in which no cycle ran because the one before was late.
   [[nodiscard]] std::uint64_t skipped() const noexcept { return skipped_; }
 
-  /// The cycle has run and it is `now`. Returns the periods that are lost with it; 0 when it was in time.
-  std::int64_t advance(Instant now) noexcept;
+  /// The cycle ran from `started` to `ended`. Returns the periods that are lost with it; 0 when it was in time.
+  std::int64_t advance(Instant started, Instant ended) noexcept;
 
  private:
   Instant deadline_;

@@ -56,10 +56,10 @@ void simulate(hal::SocketCanBus& bus, drivers::SimDrives& drives, TimeFrom time_
 }  // namespace
 
 const char* drives_usage() noexcept {
-  return "usage: ivo-drives --can IFACE [--robot config/robots/ivo.toml] [--clock real|sync]\n"
+  return "usage: ivo-drives --can IFACE [--robot FILE] [--clock real|sync]\n"
          "Simulates the robot's four wheel drives on a CAN interface until it gets SIGINT or SIGTERM.\n"
          "  --can IFACE    CAN interface, as vcan0\n"
-         "  --robot FILE   robot file: node-ids, units and geometry of the drives\n"
+         "  --robot FILE   robot file: node-ids and units of the drives; without it those of config/robots/ivo.toml\n"
          "  --clock real   the drives keep their own time (default)\n"
          "  --clock sync   each SYNC is one cycle further and nothing else moves time: for ivo run --clock sync\n";
 }
@@ -89,7 +89,7 @@ Result<DrivesOptions> parse_drives_options(std::span<const char* const> argument
 }
 
 Result<void> run_drives(const DrivesOptions& options, const std::atomic<bool>& stop, std::ostream& out) {
-  const Result<Robot> robot = read_robot(options.robot_path);
+  const Result<Robot> robot = options.robot_path.empty() ? Result<Robot>(Robot{}) : read_robot(options.robot_path);
   if (!robot.ok()) {
     return robot.error();
   }

@@ -12,8 +12,8 @@
 namespace ivo::firmware {
 
 struct DrivesOptions {
-  std::string interface;                                                          ///< --can, required
-  std::string robot_path = "config/robots/ivo.toml";                              ///< --robot
+  std::string interface;   ///< --can, required
+  std::string robot_path;  ///< --robot; empty: the built-in IVO-class base
   drivers::SimDrives::TimeFrom time_from = drivers::SimDrives::TimeFrom::kClock;  ///< --clock real|sync
   bool help = false;  ///< --help: nothing else was looked at
 };

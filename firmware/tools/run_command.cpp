@@ -30,17 +30,23 @@ planner::Planner& the_planner() {
   return planner;
 }
 
-std::atomic<bool> stop_signalled{false};
-static_assert(std::atomic<bool>::is_always_lock_free);
+std::atomic<ControlLoop*> running_loop{nullptr};
+static_assert(std::atomic<ControlLoop*>::is_always_lock_free, "a signal handler reads it");
 
-extern "C" void on_stop_signal(int /*number*/) { stop_signalled.store(true); }
+extern "C" void on_stop_signal(int /*number*/) {
+  if (ControlLoop* const loop = running_loop.load()) {
+    loop->request_stop();
+  }
+}
 
-void listen_for_stop_signals() {
+// Every key with which a person in a hurry ends or suspends a program stops the robot.
+void stop_on_signals(ControlLoop& loop) {
+  running_loop.store(&loop);
   struct sigaction action {};
   action.sa_handler = on_stop_signal;  // without SA_RESTART: a wait for an answer ends
-  (void)sigaction(SIGINT, &action, nullptr);
-  (void)sigaction(SIGTERM, &action, nullptr);
-  (void)sigaction(SIGHUP, &action, nullptr);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGTSTP}) {
+    (void)sigaction(number, &action, nullptr);
+  }
   action.sa_handler = SIG_IGN;  // a reader of our output that goes away does not end a search
   (void)sigaction(SIGPIPE, &action, nullptr);
 }
@@ -91,7 +97,9 @@ class Run {
 
   void to_the_end() {
     terminal_.show_mission(world_.description());
-    loop_.open(world_.clock().now());
+    const Instant begin = world_.clock().now();
+    scheduler_ = Scheduler(begin, rates::kCycle);
+    loop_.open(begin);
     if (world_.own_time()) {
       for (int cycle = 0; one_cycle(); ++cycle) {
         if (cycle % kObserveEveryCycles == 0) {
@@ -105,8 +113,14 @@ class Run {
         }
         running.store(false);
       });
-      while (running.load()) {
-        observe(kObserveEveryMs);
+      try {
+        while (running.load()) {
+          observe(kObserveEveryMs);
+        }
+      } catch (...) {  // out of memory, say: the loop goes on until the robot stands
+        loop_.request_stop();
+        loop.join();
+        throw;
       }
       loop.join();
     }
@@ -148,12 +162,13 @@ class Run {
  private:
   bool one_cycle() {
     hal::Clock& clock = world_.clock();
-    loop_.cycle(clock.now(), skipped_);
+    const Instant started = clock.now();
+    loop_.cycle(started, skipped_);
     world_.after_cycle(loop_);
     if (loop_.finished() || world_.stalled()) {
       return false;
     }
-    skipped_ = scheduler_.advance(clock.now());
+    skipped_ = scheduler_.advance(started, clock.now());
     clock.sleep_until(scheduler_.deadline());
     return true;
   }
@@ -162,9 +177,6 @@ class Run {
   void observe(int wait_ms) {
     log_.drain(loop_.events());
     const LoopStatus& status = loop_.status();
-    if (stop_signalled.load() && !stop_sent_) {
-      stop_sent_ = loop_.command(OperatorCommand::kStop);
-    }
     bool waited = false;
     switch (status.mode) {
       case Mode::kPlanning:
@@ -203,15 +215,15 @@ class Run {
   }
 
   bool seek_consent(int wait_ms) {
-    if (consent_sent_ || stop_sent_) {
+    if (answered_) {
       return false;
     }
     if (options_.yes) {
-      consent_sent_ = loop_.command(OperatorCommand::kConsent);
+      answered_ = loop_.command(OperatorCommand::kConsent);
       return false;
     }
     if (!ConsentQuestion::possible()) {
-      consent_sent_ = loop_.command(OperatorCommand::kNoConsent);
+      answered_ = loop_.command(OperatorCommand::kNoConsent);
       return false;
     }
     if (!question_.asked()) {
@@ -219,7 +231,7 @@ class Run {
     }
     const Answer answer = question_.poll(wait_ms);
     if (answer != Answer::kNone) {
-      consent_sent_ = loop_.command(answer == Answer::kYes ? OperatorCommand::kConsent : OperatorCommand::kNoConsent);
+      answered_ = loop_.command(answer == Answer::kYes ? OperatorCommand::kConsent : OperatorCommand::kNoConsent);
     }
     return true;
   }
@@ -244,8 +256,7 @@ class Run {
   Scheduler scheduler_{Instant{}, rates::kCycle};
   std::int64_t skipped_ = 0;
   bool plan_shown_ = false;
-  bool consent_sent_ = false;
-  bool stop_sent_ = false;
+  bool answered_ = false;
   bool write_failed_ = false;
 };
 
@@ -280,7 +291,7 @@ int run(const RunOptions& given) {
 
   const SearchObject object = object_of(inputs.file.mission, planner);
   const auto loop = std::make_unique<ControlLoop>(setup_of(inputs, object), planner, world.value()->bus());
-  listen_for_stop_signals();
+  stop_on_signals(*loop);
   const RunView view{inputs, planner, object};
   Run the_run(options, view, *loop, *world.value(), std::move(log).value());
   the_run.to_the_end();

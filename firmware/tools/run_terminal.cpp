@@ -1,12 +1,13 @@
 #include "firmware/tools/run_terminal.hpp"
 
 #include <poll.h>
+#include <termios.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <variant>
+#include <string_view>
 
 namespace ivo::firmware {
 namespace {
@@ -198,6 +199,7 @@ bool ConsentQuestion::possible() { return isatty(STDIN_FILENO) != 0; }
 
 void ConsentQuestion::ask() {
   asked_ = true;
+  (void)tcflush(STDIN_FILENO, TCIFLUSH);  // what was typed before the plans were shown is no consent to them
   (void)std::printf("%-*s  Start the search? The robot will move. [y/N] ", kLabelWidth, "consent");
   (void)std::fflush(stdout);
 }
@@ -209,7 +211,8 @@ Answer ConsentQuestion::poll(int wait_ms) {
   }
   std::array<char, 64> text{};
   const ssize_t size = ::read(STDIN_FILENO, text.data(), text.size());
-  return size > 0 && (text[0] == 'y' || text[0] == 'Y') ? Answer::kYes : Answer::kNo;
+  const std::string_view line(text.data(), size > 0 ? static_cast<std::size_t>(size) : 0);
+  return line == "y\n" || line == "Y\n" || line == "yes\n" ? Answer::kYes : Answer::kNo;
 }
 
 }  // namespace ivo::firmware

@@ -1,5 +1,6 @@
 #include "firmware/tools/run_world.hpp"
 
+#include <filesystem>
 #include <utility>
 
 #include "config/rates.hpp"
@@ -100,6 +101,10 @@ Result<std::unique_ptr<RunWorld>> RunWorld::open(const RunOptions& options, cons
   }
   if (options.max_speed || options.speed != 1.0) {
     return Error{"--speed: drives on " + options.can + " have their own time; expected no --speed together with --can"};
+  }
+  // A real bus does not wait for us, and real drives would turn while our time stands still.
+  if (options.lock_step && std::filesystem::exists("/sys/class/net/" + options.can + "/device")) {
+    return Error{"--clock sync: " + options.can + " is a real interface; expected a virtual one, as vcan0"};
   }
   Result<hal::SocketCanBus> bus = hal::SocketCanBus::open(options.can);
   if (!bus) {

@@ -70,22 +70,34 @@ class Run(unittest.TestCase):
         for agent in read_json(self.out, "report.json")["agents"]:
             self.assertEqual(agent["distance_m"], 0.0)
 
-    def ask_at_a_terminal(self, answer):
+    def ask_at_a_terminal(self, answer, typed_before=b""):
         terminal, far_end = pty.openpty()
         process = subprocess.Popen(
             [IVO, "run", write_mission(self.folder), "--speed", "max", "--out", self.out],
-            stdin=far_end, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+            stdin=far_end, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True,
         )
         os.close(far_end)
+        os.write(terminal, typed_before)
+        output = b""
+        while b"Start the search?" not in output:
+            more = os.read(process.stdout.fileno(), 4096)
+            self.assertTrue(more, output)
+            output += more
         os.write(terminal, answer)
-        output = process.communicate()[0]
+        process.communicate()
         os.close(terminal)
-        self.assertIn("Start the search?", output)
         return process.returncode
 
     def test_yes_at_the_terminal_starts_the_search(self):
         self.assertEqual(self.ask_at_a_terminal(b"y\n"), 0)
         self.assertIn("searching", self.modes())
+
+    def test_what_was_typed_before_the_plans_were_shown_is_no_consent(self):
+        self.assertEqual(self.ask_at_a_terminal(b"n\n", typed_before=b"y\ny\n"), 3)
+        self.assertNotIn("searching", self.modes())
+
+    def test_only_a_whole_yes_is_a_yes(self):
+        self.assertEqual(self.ask_at_a_terminal(b"yonder\n"), 3)
 
     def test_anything_else_at_the_terminal_starts_nothing(self):
         self.assertEqual(self.ask_at_a_terminal(b"\n"), 3)

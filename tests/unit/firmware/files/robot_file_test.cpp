@@ -20,7 +20,7 @@ const std::string kRobot =
     "half_width_m = 0.25\nmax_wheel_radps = 15\n"                                // 6, 7
     "[limits]\nmax_speed_mps = 0.5\nmax_turn_radps = 1\nmax_accel_mps2 = 0.5\n"  // 8 to 11
     "max_turn_accel_radps2 = 1.5\nstop_decel_mps2 = 1\n"                         // 12, 13
-    "[bus]\nbit_rate_bps = 500000\nmaster_node_id = 100\n" +                     // 14 to 16
+    "[bus]\nbit_rate_bps = 800000\nmaster_node_id = 100\n" +                     // 14 to 16
     drive("front_left", 1) +
     drive("front_right", 2) + drive("rear_left", 3) +                       // 17, 23, 29
     drive("rear_right", 4) + "vendor_id = 0xFFFFFFFF\nproduct_code = 5\n";  // 35, 41, 42
@@ -47,7 +47,7 @@ TEST(RobotFile, ReadsEveryField) {
   EXPECT_EQ(r.limits.max_accel_mps2, 0.5);
   EXPECT_EQ(r.limits.max_turn_accel_radps2, 1.5);
   EXPECT_EQ(r.limits.stop_decel_mps2, 1);
-  EXPECT_EQ(r.bit_rate_bps, 500'000U);
+  EXPECT_EQ(r.bit_rate_bps, 800'000U);
   EXPECT_EQ(r.master_node_id, 100);
   for (std::size_t i = 0; i < r.drives.size(); ++i) {
     EXPECT_EQ(r.drives[i].node_id, i + 1);
@@ -84,11 +84,27 @@ TEST(RobotFile, RefusesAStopThatIsGentlerThanBraking) {
       "0.5");
 }
 
+TEST(RobotFile, RefusesAStopThatTakesTooLong) {
+  EXPECT_EQ(complaint("max_speed_mps = 0.5", "max_speed_mps = 2.5"),
+            "r.toml:13: limits.stop_decel_mps2: 1 does not stop the robot from max_speed_mps within 2 s; expected at "
+            "least 1.25");
+}
+
 TEST(RobotFile, RefusesBitRatesThatAreNoneOrTooSlow) {
-  EXPECT_EQ(complaint("500000", "600000"),
-            "r.toml:15: bus.bit_rate_bps: 600000 is no CANopen bit rate; expected 500000, 800000 or 1000000");
-  EXPECT_EQ(complaint("500000", "250000"),
-            "r.toml:15: bus.bit_rate_bps: 250000 is out of range; expected 500000 to 1000000");
+  for (const std::string rate : {"500000", "600000", "250000"}) {
+    EXPECT_EQ(complaint("800000", rate), "r.toml:15: bus.bit_rate_bps: " + rate +
+                                             " does not carry four drives at 500 Hz; expected 800000 or 1000000");
+  }
+}
+
+TEST(RobotFile, RefusesUnitsInWhichFullSpeedDoesNotFit) {
+  EXPECT_EQ(
+      complaint("velocity_per_radps = 10", "velocity_per_radps = 1e8"),
+      "r.toml:22: drive.front_left.velocity_per_radps: makes base.max_wheel_radps 3000000000 units of 60FFh; expected "
+      "100 to 2147483647 of them");
+  EXPECT_EQ(complaint("velocity_per_radps = 10", "velocity_per_radps = 1"),
+            "r.toml:22: drive.front_left.velocity_per_radps: makes base.max_wheel_radps 30 units of 60FFh; expected "
+            "100 to 2147483647 of them");
 }
 
 TEST(RobotFile, RefusesAWheelThatIsMissing) {

@@ -91,6 +91,12 @@ int out_of_sight(const planner::SegmentedMap& map, const std::vector<bool>& reac
   return count;
 }
 
+TEST(ShippedRobot, IsTheBuiltInOne) {
+  const auto robot = read_robot(kConfig + "robots/ivo.toml");
+  ASSERT_TRUE(robot.ok()) << robot.error().message;
+  EXPECT_EQ(robot.value(), Robot{});
+}
+
 TEST(ShippedFiles, ClassesAreTheBuiltInTable) {
   const auto file = read_classes(kConfig + "classes.toml");
   ASSERT_TRUE(file.ok()) << file.error().message;

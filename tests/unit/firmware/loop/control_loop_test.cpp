@@ -79,7 +79,7 @@ TEST(ControlLoop, AStopRampsDownWithinTheConfiguredDeceleration) {
   ASSERT_TRUE(rig.start_search());
   rig.run(5s);
   ASSERT_TRUE(rig.wheels_turn());
-  rig.loop().command(OperatorCommand::kStop);
+  rig.loop().request_stop();
   ASSERT_TRUE(rig.run_until(Mode::kStopping, 4ms));
   // 0.5 m/s at 1 m/s^2 and the drives' own ramp.
   rig.run(700ms);
@@ -92,7 +92,7 @@ TEST(ControlLoop, NobodyStartsASearchThatWasStopped) {
   SearchRig rig({});
   ASSERT_TRUE(rig.start_search());
   rig.run(1s);
-  rig.loop().command(OperatorCommand::kStop);
+  rig.loop().request_stop();
   ASSERT_TRUE(rig.run_until(Mode::kDone, 5s));
   rig.loop().command(OperatorCommand::kConsent);
   rig.run(2s);

@@ -14,7 +14,7 @@ TEST(DrivesCommand, NeedsOnlyTheInterface) {
   const auto options = parse({"--can", "vcan0"});
   ASSERT_TRUE(options.ok());
   EXPECT_EQ(options.value().interface, "vcan0");
-  EXPECT_EQ(options.value().robot_path, "config/robots/ivo.toml");
+  EXPECT_EQ(options.value().robot_path, "");
   EXPECT_EQ(options.value().time_from, drivers::SimDrives::TimeFrom::kClock);
 }
 
