@@ -20,9 +20,10 @@ inline constexpr Duration kFeedbackTimeout = 10ms;          // five SYNCs withou
 inline constexpr Duration kBootTimeout = 5s;                // from reset to boot-up message
 inline constexpr Duration kSdoTimeout = 500ms;  // real drives answer in 6 to over 20 ms; shorter breaks start-up
 inline constexpr int kSdoAttempts = 3;
-inline constexpr Duration kStateChangeTimeout = 1s;  // one CiA 402 transition
-inline constexpr Duration kStandstillTimeout = 3s;   // from a stop to wheels at rest
-inline constexpr Duration kStandstillDwell = 50ms;   // a wheel rests when it has not moved for so long
+inline constexpr Duration kStateChangeTimeout = 1s;      // one CiA 402 transition
+inline constexpr Duration kUnaskedPowerTimeout = 100ms;  // a drive may be powered unasked for so long
+inline constexpr Duration kStandstillTimeout = 3s;       // from a stop to wheels at rest
+inline constexpr Duration kStandstillDwell = 50ms;       // a wheel rests when it has not moved for so long
 
 inline constexpr int kPlannerUnitsPerCycle =
     100'000;  // planner work in one cycle, in work units (planner/search/planner.hpp)

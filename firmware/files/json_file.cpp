@@ -261,11 +261,8 @@ std::string report_json(const ReportDocument& report) {
                      {"finder", report.finder ? Json(*report.finder) : Json(nullptr)},
                      {"object_m", report.object ? json_of(*report.object) : Json(nullptr)},
                      {"real_search_time_s", report.real_search_time_s},
-                     {"plan_score", json_of(report.score)},
+                     {"plan_score", report.score ? json_of(*report.score) : Json(nullptr)},
                      {"agents", std::move(agents)},
-                     {"cycles", report.cycles},
-                     {"frames_sent", report.frames_sent},
-                     {"frames_received", report.frames_received},
                      {"drive_fault", report.drive_fault.empty() ? Json(nullptr) : Json(report.drive_fault)}};
   return text_of(json);
 }

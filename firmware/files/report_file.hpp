@@ -1,4 +1,4 @@
-// report.json: how a search went.
+// report.json: how a search went. Only what the mission and its people decide, nothing that the host's pace decides.
 #pragma once
 
 #include <cstdint>
@@ -30,12 +30,9 @@ struct ReportDocument {
   std::string reason;                 ///< one line
   std::optional<std::string> finder;  ///< name of the agent
   std::optional<Point> object;
-  ScoreDocument score;  ///< of the plan
+  std::optional<ScoreDocument> score;  ///< of the plan; none when there was no plan yet
   double real_search_time_s = 0.0;
   std::vector<ReportedAgent> agents;
-  std::uint64_t cycles = 0;
-  std::uint64_t frames_sent = 0;
-  std::uint64_t frames_received = 0;
   std::string drive_fault;  ///< empty without one
 };
 

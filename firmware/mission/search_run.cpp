@@ -34,13 +34,15 @@ void SearchRun::update(Instant now, Point robot, bool robot_path_ended) noexcept
   bool all_ended = true;
   for (std::size_t m = 0; m < searchers_.size(); ++m) {
     const Searcher& searcher = searchers_[m];
+    const Duration under_way = tracks_[m].path_ended ? tracks_[m].under_way : elapsed_;
     if (searcher.kind == AgentKind::kRobot) {
       tracks_[m].moved_m += std::hypot(robot.x_m - tracks_[m].position.x_m, robot.y_m - tracks_[m].position.y_m);
       tracks_[m].position = robot;
+      tracks_[m].under_way = under_way;
       tracks_[m].path_ended = robot_path_ended;
     } else if (searcher.motion == PersonMotion::kSimulated) {
       persons_[m].walk(dt);
-      tracks_[m] = {persons_[m].position(), persons_[m].walked_m(), persons_[m].arrived()};
+      tracks_[m] = {persons_[m].position(), persons_[m].walked_m(), under_way, persons_[m].arrived()};
     } else {
       tracks_[m].path_ended = true;  // a reported person may stop anywhere: the paths of the others decide
     }

@@ -29,6 +29,7 @@ using Searchers = StaticVector<Searcher, limits::kAgents>;
 struct AgentTrack {
   Point position;
   double moved_m = 0.0;  ///< since the search started
+  Duration under_way{};  ///< until the path ended
   bool path_ended = false;
 };
 

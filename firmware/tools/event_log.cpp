@@ -1,5 +1,8 @@
 #include "firmware/tools/event_log.hpp"
 
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstring>
 #include <string_view>
@@ -31,15 +34,23 @@ std::string place(const Event& event) { return field("x_m", event.x) + field("y_
 }  // namespace
 
 Result<EventLog> EventLog::create(const std::string& path, std::vector<std::string> agents) {
-  std::FILE* file = std::fopen(path.c_str(), "w");
+  std::FILE* file = std::fopen(path.c_str(), "a");
   if (file == nullptr) {
     return Error{path + ": cannot be written: " + std::strerror(errno)};
   }
-  return EventLog(file, std::move(agents));
+  EventLog log(file, path, std::move(agents));
+  // Held until the process ends, however it ends.
+  if (flock(fileno(file), LOCK_EX | LOCK_NB) != 0) {
+    return Error{path + ": another run is writing here; expected a folder of its own for each run"};
+  }
+  if (ftruncate(fileno(file), 0) != 0) {
+    return Error{path + ": cannot be written: " + std::strerror(errno)};
+  }
+  return log;
 }
 
-EventLog::EventLog(std::FILE* file, std::vector<std::string> agents)
-    : file_(file), agents_(std::move(agents)), tracks_(agents_.size()) {}
+EventLog::EventLog(std::FILE* file, std::string path, std::vector<std::string> agents)
+    : file_(file), path_(std::move(path)), agents_(std::move(agents)), tracks_(agents_.size()) {}
 
 void EventLog::drain(EventRing& ring) {
   bool any = false;
@@ -48,11 +59,17 @@ void EventLog::drain(EventRing& ring) {
       tracks_[event.agent].push_back({event.x, event.y});
     }
     const std::string text = line(event) + "\n";
-    (void)std::fwrite(text.data(), 1, text.size(), file_.get());
+    lost_ = lost_ || std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size();
   }
-  if (any) {
-    (void)std::fflush(file_.get());
+  lost_ = lost_ || ring.lost() > 0 || (any && std::fflush(file_.get()) != 0);
+}
+
+Result<void> EventLog::close() {
+  const bool closed = std::fclose(file_.release()) == 0;
+  if (lost_ || !closed) {
+    return Error{path_ + ": events were lost; expected room on the disk and a disk that keeps up"};
   }
+  return {};
 }
 
 std::string EventLog::line(const Event& event) const {

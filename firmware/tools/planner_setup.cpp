@@ -1,7 +1,10 @@
 #include "firmware/tools/planner_setup.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 
 #include "firmware/files/number_text.hpp"
@@ -30,7 +33,7 @@ std::string metres(double value) { return shortest(std::round(value * 100) / 100
 
 std::string larger_profile(double value, int micro, int onboard, int desktop) {
   const char* fits = value <= micro ? "micro" : value <= onboard ? "onboard" : value <= desktop ? "desktop" : nullptr;
-  return fits != nullptr ? std::string("; the planner profile that fits is ") + fits
+  return fits != nullptr ? std::string("; the planner profile that fits is ") + fits + " (-DIVO_PLANNER_PROFILE)"
                          : std::string("; no planner profile is that large");
 }
 
@@ -49,6 +52,8 @@ Error sentence(const planner::Refusal& refusal, const MissionInputs& inputs) {
                                             larger_profile(refusal.value, limits::Micro::kCells,
                                                            limits::Onboard::kCells, limits::Desktop::kCells));
     case RefusalCode::kTooManySquares:
+      return lines.at("planner.spacing_m",
+                      "the graph has too many squares: " + counts + "; expected a larger spacing_m");
     case RefusalCode::kTooManyNodes:
       return lines.at("planner.spacing_m", "the graph has too many nodes: " + counts + "; expected a larger spacing_m" +
                                                larger_profile(refusal.value, limits::Micro::kNodes,
@@ -56,8 +61,9 @@ Error sentence(const planner::Refusal& refusal, const MissionInputs& inputs) {
     case RefusalCode::kTooManyEdges:
       return lines.at("planner.spacing_m", "the graph has too many edges: " + counts + "; expected a larger spacing_m");
     case RefusalCode::kSightTableFull:
-      return lines.at("planner.cell_m", "the sight table is full at " + whole(refusal.limit) +
-                                            " entries; expected a larger cell_m or spacing_m");
+      return lines.at("planner.cell_m",
+                      "the sight table is full at " + whole(refusal.limit) +
+                          " entries; expected a larger cell_m or spacing_m, or a smaller sight_radius_m");
     case RefusalCode::kEdgeTooLong:
       return lines.at("planner.cell_m", "an edge has " + whole(refusal.value) + " sight points, more than " +
                                             whole(refusal.limit) + "; expected a larger cell_m or a smaller spacing_m");
@@ -135,26 +141,27 @@ Result<MissionInputs> read_inputs(const std::string& mission_path) {
   MissionInputs inputs{.file = std::move(file).value(), .map = {}, .robot = {}, .prior_image = {}, .gaussians = {}};
   const Mission& mission = inputs.file.mission;
 
+  const Lines& lines = inputs.file.lines;
   Result<MapFile> map = read_map(mission.map_path);
   if (!map) {
-    return map.error();
+    return lines.at("map", map.error().message);
   }
   inputs.map = std::move(map).value();
 
   Result<Robot> robot = read_robot(mission.agents.front().robot_path);
   if (!robot) {
-    return robot.error();
+    return lines.at("agent[0].robot", robot.error().message);
   }
   inputs.robot = std::move(robot).value();
   if (const double most = inputs.robot.limits.max_speed_mps; mission.agents.front().speed_mps > most) {
-    return inputs.file.lines.at("agent[0].speed_mps", "is faster than the robot may drive; expected at most " +
-                                                          shortest(most) + ", limits.max_speed_mps of its file");
+    return lines.at("agent[0].speed_mps", "is faster than the robot may drive; expected at most " + shortest(most) +
+                                              ", limits.max_speed_mps of its file");
   }
 
   if (const auto* image = std::get_if<ImagePrior>(&mission.prior)) {
     Result<GreyImage> grey = read_grey(image->image_path);
     if (!grey) {
-      return grey.error();
+      return lines.at("prior.image", grey.error().message);
     }
     inputs.prior_image = std::move(grey).value();
   } else if (const auto* mixture = std::get_if<GaussianMixturePrior>(&mission.prior)) {
@@ -165,13 +172,63 @@ Result<MissionInputs> read_inputs(const std::string& mission_path) {
   return inputs;
 }
 
+namespace {
+
+bool reaches(const planner::SegmentedMap& map, const Polygon& polygon) {
+  Point low = polygon.front();
+  Point high = low;
+  for (const Point p : polygon) {
+    low = {std::min(low.x_m, p.x_m), std::min(low.y_m, p.y_m)};
+    high = {std::max(high.x_m, p.x_m), std::max(high.y_m, p.y_m)};
+  }
+  return high.x_m > 0 && high.y_m > 0 && low.x_m < map.width_m() && low.y_m < map.height_m();
+}
+
+// What lies off the map would be taken without effect: the writer meant something else.
+std::optional<Error> off_the_map(const MissionInputs& inputs) {
+  const planner::SegmentedMap map = inputs.map.view();
+  const Mission& mission = inputs.file.mission;
+  const std::string expected = "; expected a place on the map, 0 to " + shortest(map.width_m()) + ", 0 to " +
+                               shortest(map.height_m()) + " (metres)";
+  for (std::size_t i = 0; i < inputs.gaussians.size(); ++i) {
+    if (const Point mean = inputs.gaussians[i].mean; !map.contains(mean)) {
+      return inputs.file.lines.at("prior.gaussians[" + std::to_string(i) + "].mean_m",
+                                  place(mean) + " is outside the map" + expected);
+    }
+  }
+  for (std::size_t m = 0; m < mission.agents.size(); ++m) {
+    for (const auto& [key, areas] : {std::pair{"preferred", &mission.agents[m].preferred},
+                                     std::pair{"restricted", &mission.agents[m].restricted}}) {
+      for (std::size_t i = 0; i < areas->size(); ++i) {
+        if (!reaches(map, (*areas)[i])) {
+          return inputs.file.lines.at("agent[" + std::to_string(m) + "]." + key + "[" + std::to_string(i) + "]",
+                                      "lies outside the map" + expected);
+        }
+      }
+    }
+  }
+  if (const Point* object = std::get_if<Point>(&mission.object)) {
+    if (!map.contains(*object)) {
+      return inputs.file.lines.at("object", place(*object) + " is outside the map" + expected);
+    }
+    const int column = static_cast<int>(object->x_m / map.resolution_m);
+    const int row = static_cast<int>(object->y_m / map.resolution_m);
+    if (map.obstacle(column, row)) {
+      return inputs.file.lines.at("object", place(*object) + " is inside an obstacle, " +
+                                                std::string(name_of(map.at(column, row))) + "; expected a free place");
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
 Result<void> prepare(planner::Planner& planner, const MissionInputs& inputs) {
+  if (const std::optional<Error> error = off_the_map(inputs)) {
+    return *error;
+  }
   if (const planner::Refusal refusal = planner.prepare(inputs.problem())) {
     return sentence(refusal, inputs);
-  }
-  if (const Point* place = std::get_if<Point>(&inputs.file.mission.object);
-      place != nullptr && !inputs.map.view().contains(*place)) {
-    return inputs.file.lines.at("object", "lies outside the map; expected a place on it");
   }
   return {};
 }

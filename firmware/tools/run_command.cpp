@@ -134,13 +134,14 @@ class Run {
     if (plan != nullptr) {
       show_plan_once();
     }
+    question_.close();
     terminal_.show_result(outcome, status, plan, world_.lapses());
     write("report.json", report_json(report_document(view_, plan, status, outcome)));
     if (plan != nullptr) {
-      const Result<std::string> picture = picture_png(picture_of(view_, *plan, status, outcome, log_.tracks()));
-      picture ? write("search.png", picture.value()) : note(picture.error());
+      write_picture(*plan, status, outcome);
     }
-    terminal_.show_file(path_of("events.jsonl"));
+    const Result<void> recorded = log_.close();
+    recorded ? terminal_.show_file(path_of("events.jsonl")) : note(recorded.error());
     if (write_failed_) {
       return exit_status::kFaultOrStop;
     }
@@ -212,6 +213,12 @@ class Run {
     plan_shown_ = true;
     terminal_.show_plan(loop_.plan());
     write("plan.json", plan_json(plan_document(view_, loop_.plan())));
+    write_picture(loop_.plan(), loop_.status(), {RunEnd::kNoConsent, "the plans, before anybody consented"});
+  }
+
+  void write_picture(const planner::Plan& plan, const LoopStatus& status, const RunOutcome& outcome) {
+    const Result<std::string> picture = picture_png(picture_of(view_, plan, status, outcome, log_.tracks()));
+    picture ? write("search.png", picture.value()) : note(picture.error());
   }
 
   bool seek_consent(int wait_ms) {
@@ -287,6 +294,11 @@ int run(const RunOptions& given) {
   Result<EventLog> log = EventLog::create(options.out + "/events.jsonl", names_of(inputs.file.mission));
   if (!log) {
     return refuse(log.error());
+  }
+  // What an earlier run left here would be taken for this one's.
+  for (const char* name : {"/plan.json", "/report.json", "/search.png"}) {
+    std::error_code ignored;
+    std::filesystem::remove(options.out + name, ignored);
   }
 
   const SearchObject object = object_of(inputs.file.mission, planner);

@@ -29,6 +29,33 @@ const std::string& name_of_agent(const RunView& run, int agent) {
 
 }  // namespace
 
+double mean_speed_mps(const AgentTrack& track) {
+  return track.under_way > Duration::zero() ? track.moved_m / seconds(track.under_way) : 0.0;
+}
+
+std::string score_text(const RunView& run, const planner::PlanScore& score) {
+  const std::string anybody = fixed(score.expected_time_s, 1) + " s";
+  std::string text = "expected time " + anybody;
+  if (run.planner.belief().has_sub_priors) {
+    text = "expected time " + fixed(score.expected_sub_prior_time_s, 1) + " s as preferred, " + anybody + " by anybody";
+  }
+  text += "; unseen " + fixed(100 * score.unseen_mass, 1) + " %";
+  return score.complete ? text : text + ", incomplete";
+}
+
+double mean_speed_mps(const AgentTrack& track) {
+  return track.under_way > Duration::zero() ? track.moved_m / seconds(track.under_way) : 0.0;
+}
+
+std::string score_text(const RunView& run, const planner::PlanScore& score) {
+  std::string text = "expected time " + fixed(score.expected_time_s, 1) + " s";
+  if (run.planner.belief().has_sub_priors) {
+    text += ", keeping to the preferred areas " + fixed(score.expected_sub_prior_time_s, 1) + " s";
+  }
+  text += "; unseen " + fixed(100 * score.unseen_mass, 1) + " %";
+  return score.complete ? text : text + ", incomplete";
+}
+
 RunOutcome outcome_of(const RunView& run, const LoopStatus& status, bool stalled) {
   if (stalled) {
     return {RunEnd::kFault, "the drives no longer answer; expected ivo-drives --clock sync on the same interface"};
@@ -45,14 +72,14 @@ RunOutcome outcome_of(const RunView& run, const LoopStatus& status, bool stalled
   if (status.stop_cause == StopCause::kNoConsent) {
     return {RunEnd::kNoConsent, "nobody consented to the plans"};
   }
-  if (status.stop_cause == StopCause::kAsked) {
-    return {RunEnd::kStopped, "stop was asked for"};
-  }
   if (status.finder) {
     const AgentSpec& finder = run.inputs.file.mission.agents[static_cast<std::size_t>(*status.finder)];
     return {RunEnd::kFound, finder.name + " found the object after " + fixed(seconds(status.search_time), 1) + " s"};
   }
-  return {RunEnd::kPathsEnded, "both paths ended and nobody found the object"};
+  if (status.stop_cause == StopCause::kAsked) {
+    return {RunEnd::kStopped, "stop was asked for"};
+  }
+  return {RunEnd::kPathsEnded, "all paths ended and nobody found the object"};
 }
 
 PlanDocument plan_document(const RunView& run, const planner::Plan& plan) {
@@ -97,20 +124,16 @@ ReportDocument report_document(const RunView& run, const planner::Plan* plan, co
   if (plan != nullptr) {
     report.score = score_document(plan->score);
   }
-  const double search_s = status.search_started ? seconds(status.search_time) : 0.0;
-  report.real_search_time_s = search_s;
+  report.real_search_time_s = status.search_started ? seconds(status.search_time) : 0.0;
   for (std::size_t m = 0; m < mission.agents.size(); ++m) {
     const AgentTrack& track = status.tracks[m];
     report.agents.push_back({.name = mission.agents[m].name,
                              .kind = mission.agents[m].kind,
                              .planned_length_m = plan != nullptr ? plan->paths[m].length_m : 0.0,
                              .distance_m = track.moved_m,
-                             .mean_speed_mps = search_s > 0.0 ? track.moved_m / search_s : 0.0,
+                             .mean_speed_mps = mean_speed_mps(track),
                              .final_position = track.position});
   }
-  report.cycles = status.counters.cycles;
-  report.frames_sent = status.counters.bus.sent;
-  report.frames_received = status.counters.bus.received;
   if (status.drive_fault.reason != drivers::DriveFaultReason::kNone) {
     report.drive_fault = drivers::describe(status.drive_fault);
   }
@@ -145,11 +168,7 @@ SearchPicture picture_of(const RunView& run, const planner::Plan& plan, const Lo
     picture.find = PicturedFind{finder, status.tracks[finder].position, mission.agents[finder].sight_radius_m};
   }
   picture.title = mission.name + ": " + outcome.reason;
-  picture.figures = "expected time " + fixed(plan.score.expected_time_s, 1) + " s, unseen " +
-                    fixed(100 * plan.score.unseen_mass, 1) + " %";
-  if (plan.score.expected_sub_prior_time_s > 0.0) {
-    picture.figures += ", on the sub-priors " + fixed(plan.score.expected_sub_prior_time_s, 1) + " s";
-  }
+  picture.figures = score_text(run, plan.score);
   if (status.search_started) {
     picture.figures += "; searched for " + fixed(seconds(status.search_time), 1) + " s";
   }

@@ -26,6 +26,10 @@ struct RunOutcome {
   std::string reason;
 };
 
+/// One line: what the team can expect of a plan.
+[[nodiscard]] std::string score_text(const RunView& run, const planner::PlanScore& score);
+/// While the agent's path lasted; 0 when it never set off.
+[[nodiscard]] double mean_speed_mps(const AgentTrack& track);
 [[nodiscard]] RunOutcome outcome_of(const RunView& run, const LoopStatus& status, bool stalled);
 [[nodiscard]] PlanDocument plan_document(const RunView& run, const planner::Plan& plan);
 /// `plan` may be null when there is none yet.

@@ -1,6 +1,7 @@
 #include "firmware/tools/run_terminal.hpp"
 
 #include <poll.h>
+#include <sys/ioctl.h>
 #include <termios.h>
 #include <unistd.h>
 
@@ -8,6 +9,7 @@
 #include <array>
 #include <cstdio>
 #include <string_view>
+#include <variant>
 
 namespace ivo::firmware {
 namespace {
@@ -28,20 +30,34 @@ void say(const char* label, const std::string& text) {
 
 std::string place(Point p) { return format("(%.1f, %.1f)", p.x_m, p.y_m); }
 
-std::string score_text(const RunView& run, const planner::PlanScore& score) {
-  std::string text = format("expected time %.1f s", score.expected_time_s);
-  if (run.planner.belief().has_sub_priors) {
-    text += format(" (on the sub-priors %.1f s)", score.expected_sub_prior_time_s);
-  }
-  text += format(", unseen %.1f %%", 100 * score.unseen_mass);
-  return score.complete ? text : text + ", incomplete";
-}
-
 std::string bar(int part, int whole) {
   constexpr int kWidth = 24;
   const int filled = whole > 0 ? kWidth * part / whole : 0;
   return "[" + std::string(static_cast<std::size_t>(filled), '#') +
          std::string(static_cast<std::size_t>(kWidth - filled), '.') + "]";
+}
+
+std::string prior_text(const MissionInputs& inputs) {
+  if (inputs.prior_image) {
+    const double pixel_m = std::get<ImagePrior>(inputs.file.mission.prior).resolution_m;
+    const double width_m = inputs.prior_image->width_px * pixel_m;
+    const double height_m = inputs.prior_image->height_px * pixel_m;
+    const planner::SegmentedMap map = inputs.map.view();
+    const bool smaller = width_m < map.width_m() || height_m < map.height_m();
+    return format("image of %.1f x %.1f m", width_m, height_m) + (smaller ? ": nothing beyond it" : "");
+  }
+  if (inputs.gaussians.empty()) {
+    return "uniform";
+  }
+  return inputs.gaussians.size() == 1 ? "a Gaussian"
+                                      : format("%d Gaussians", static_cast<int>(inputs.gaussians.size()));
+}
+
+// A line that is longer than the terminal cannot be drawn over itself.
+std::string cut_to_terminal(const std::string& line) {
+  winsize size{};
+  const bool known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
+  return known ? line.substr(0, size.ws_col - 1U) : line;
 }
 
 std::string positions(const RunView& run, const LoopStatus& status) {
@@ -67,8 +83,10 @@ void RunTerminal::show_mission(const std::string& bus) const {
         agent.name + " from " + place(agent.start) +
             format(", %.2f m/s, sees %.1f m", agent.speed_mps, agent.sight_radius_m) +
             (agent.preferred.empty() ? std::string()
-                                     : format(", %d preferred area(s)", static_cast<int>(agent.preferred.size()))));
+                                     : format(", %d preferred %s", static_cast<int>(agent.preferred.size()),
+                                              agent.preferred.size() == 1 ? "area" : "areas")));
   }
+  say("prior", prior_text(run_.inputs));
   say("graph",
       format("%d nodes %.2f m apart, %d edges, %d cells of %.2f m, %.1f %% of the prior out of everybody's sight",
              run_.planner.graph().nodes(), mission.planner.spacing_m, run_.planner.graph().edges(),
@@ -98,7 +116,7 @@ void RunTerminal::overwrite(const std::string& line) {
   if (!time_to_draw()) {
     return;
   }
-  (void)std::printf("\r\033[K%s", line.c_str());
+  (void)std::printf("\r\033[K%s", cut_to_terminal(line).c_str());
   (void)std::fflush(stdout);
   line_open_ = true;
 }
@@ -111,6 +129,9 @@ void RunTerminal::end_line() {
 }
 
 void RunTerminal::show_planning(const planner::Progress& progress) {
+  if (progress.generations == 0) {
+    return;  // the loop has not shown anything yet
+  }
   const std::string text = format("%d of %d generations", progress.generation, progress.generations) +
                            (progress.has_plan ? ", " + score_text(run_, progress.best) : std::string());
   if (live_) {
@@ -127,6 +148,7 @@ void RunTerminal::show_planning(const planner::Progress& progress) {
 void RunTerminal::show_plan(const planner::Plan& plan) {
   end_line();
   tenth_shown_ = -1;
+  horizon_s_ = plan.score.horizon_s;
   say("plans", score_text(run_, plan.score));
   const auto& agents = run_.inputs.file.mission.agents;
   for (std::size_t m = 0; m < agents.size(); ++m) {
@@ -134,6 +156,10 @@ void RunTerminal::show_plan(const planner::Plan& plan) {
                 format(": %.1f m, %.0f s, %d waypoints, ends at ", plan.paths[m].length_m, plan.paths[m].duration_s,
                        static_cast<int>(plan.paths[m].waypoints.size())) +
                 place(plan.paths[m].waypoints.back()));
+  }
+  if (!plan.score.complete) {
+    say("note", format("the plans leave %.1f %% of the probability unsearched; a smaller spacing_m leaves less",
+                       100 * plan.score.unseen_mass));
   }
 }
 
@@ -150,7 +176,7 @@ void RunTerminal::show_search(const LoopStatus& status) {
     overwrite(format("%-*s  ", kLabelWidth, "searching") + text);
     return;
   }
-  const int step = static_cast<int>(seconds(status.search_time) / 10.0);
+  const int step = static_cast<int>(10.0 * seconds(status.search_time) / std::max(1.0, horizon_s_));
   if (step > tenth_shown_) {
     tenth_shown_ = step;
     say("searching", text);
@@ -170,9 +196,8 @@ void RunTerminal::show_result(const RunOutcome& outcome, const LoopStatus& statu
     }
     const auto& agents = run_.inputs.file.mission.agents;
     for (std::size_t m = 0; m < agents.size(); ++m) {
-      say("",
-          agents[m].name + format(": %.1f of %.1f m, %.2f m/s on average", status.tracks[m].moved_m,
-                                  plan->paths[m].length_m, search_s > 0 ? status.tracks[m].moved_m / search_s : 0.0));
+      say("", agents[m].name + format(": %.1f of %.1f m, %.2f m/s on average", status.tracks[m].moved_m,
+                                      plan->paths[m].length_m, mean_speed_mps(status.tracks[m])));
     }
   }
   const LoopCounters& counters = status.counters;
@@ -195,13 +220,21 @@ void RunTerminal::show_result(const RunOutcome& outcome, const LoopStatus& statu
 
 void RunTerminal::show_file(const std::string& path) const { say("wrote", path); }
 
-bool ConsentQuestion::possible() { return isatty(STDIN_FILENO) != 0; }
+bool ConsentQuestion::possible() { return isatty(STDIN_FILENO) != 0 && isatty(STDOUT_FILENO) != 0; }
 
 void ConsentQuestion::ask() {
   asked_ = true;
   (void)tcflush(STDIN_FILENO, TCIFLUSH);  // what was typed before the plans were shown is no consent to them
-  (void)std::printf("%-*s  Start the search? The robot will move. [y/N] ", kLabelWidth, "consent");
+  open_ = true;
+  (void)std::printf("%-*s  Start the search? The robot will move; Ctrl-C stops it. [y/N] ", kLabelWidth, "consent");
   (void)std::fflush(stdout);
+}
+
+void ConsentQuestion::close() {
+  if (open_) {
+    open_ = false;
+    (void)std::printf("\n");
+  }
 }
 
 Answer ConsentQuestion::poll(int wait_ms) {
@@ -211,6 +244,7 @@ Answer ConsentQuestion::poll(int wait_ms) {
   }
   std::array<char, 64> text{};
   const ssize_t size = ::read(STDIN_FILENO, text.data(), text.size());
+  open_ = size <= 0;  // a typed line ends the question's
   const std::string_view line(text.data(), size > 0 ? static_cast<std::size_t>(size) : 0);
   return line == "y\n" || line == "Y\n" || line == "yes\n" ? Answer::kYes : Answer::kNo;
 }

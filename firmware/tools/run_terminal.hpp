@@ -33,6 +33,7 @@ class RunTerminal {
   bool live_;  // standard output is a terminal
   bool line_open_ = false;
   int tenth_shown_ = -1;
+  double horizon_s_ = 0.0;
   std::chrono::steady_clock::time_point drawn_{};
 };
 
@@ -41,15 +42,18 @@ enum class Answer : std::uint8_t { kNone, kYes, kNo };
 /// Asks once whether to start; the answer comes from poll().
 class ConsentQuestion {
  public:
-  /// Whether there is a terminal at which somebody can answer.
+  /// Whether there is a terminal on which somebody sees the plans and can answer.
   [[nodiscard]] static bool possible();
   void ask();
   /// Waits up to `wait_ms` for a line; a signal ends the wait.
   [[nodiscard]] Answer poll(int wait_ms);
   [[nodiscard]] bool asked() const noexcept { return asked_; }
+  /// Ends the question's line when nobody answered it.
+  void close();
 
  private:
   bool asked_ = false;
+  bool open_ = false;
 };
 
 }  // namespace ivo::firmware

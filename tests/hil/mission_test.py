@@ -6,6 +6,7 @@ In lock step, so that no time is judged by the clock of a host or guest.
 
 import collections
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -46,23 +47,27 @@ class MissionOnVcan(unittest.TestCase):
 
     def test_the_search_ends_as_in_process(self):
         self.assertEqual(self.done.returncode, 0, self.done.stdout + self.done.stderr)
-        over_can = read_json(self.on_vcan, "report.json")
-        in_process = read_json(self.in_process, "report.json")
-        self.assertEqual((over_can["end"], over_can["finder"]), (in_process["end"], in_process["finder"]))
-        self.assertEqual(over_can["object_m"], in_process["object_m"])
-        self.assertEqual(read_json(self.on_vcan, "plan.json"), read_json(self.in_process, "plan.json"))
+        for name in ("plan.json", "report.json"):
+            over_can, in_process = read_json(self.on_vcan, name), read_json(self.in_process, name)
+            for document in (over_can, in_process):
+                document.pop("map", None)  # as the mission was given
+            self.assertEqual(over_can, in_process)
+
+    def frames(self):
+        """What the controller says it sent and received."""
+        with open(os.path.join(self.on_vcan, "ivo.txt"), encoding="utf-8") as file:
+            sent, received = re.search(r"(\d+) frames sent, (\d+) received", file.read()).groups()
+        return int(sent) + int(received)
 
     def test_candump_saw_every_frame(self):
-        report = read_json(self.on_vcan, "report.json")
         with open(os.path.join(self.on_vcan, "bus.log"), encoding="ascii") as file:
             recorded = sum(1 for _ in file)
         # Frames that the drives send after the controller has left are in the log alone.
-        self.assertGreaterEqual(recorded, report["frames_sent"] + report["frames_received"])
+        self.assertGreaterEqual(recorded, self.frames())
 
     def test_tshark_decodes_every_frame_as_valid_canopen(self):
         frames = decoded(os.path.join(self.on_vcan, "bus.log"))
-        report = read_json(self.on_vcan, "report.json")
-        self.assertGreaterEqual(len(frames), report["frames_sent"] + report["frames_received"])
+        self.assertGreaterEqual(len(frames), self.frames())
         kinds = collections.Counter()
         for number, (can_id, cob_id, function, malformed, severity) in enumerate(frames, 1):
             self.assertTrue(cob_id, f"frame {number} (id {can_id}) is not CANopen")

@@ -74,19 +74,22 @@ class Run(unittest.TestCase):
         terminal, far_end = pty.openpty()
         process = subprocess.Popen(
             [IVO, "run", write_mission(self.folder), "--speed", "max", "--out", self.out],
-            stdin=far_end, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True,
+            stdin=far_end, stdout=far_end, stderr=far_end, start_new_session=True,
         )
         os.close(far_end)
         os.write(terminal, typed_before)
         output = b""
-        while b"Start the search?" not in output:
-            more = os.read(process.stdout.fileno(), 4096)
-            self.assertTrue(more, output)
+        while True:
+            try:
+                more = os.read(terminal, 4096)
+            except OSError:  # the program has ended
+                break
+            if b"Start the search?" in output + more and b"Start the search?" not in output:
+                os.write(terminal, answer)
             output += more
-        os.write(terminal, answer)
-        process.communicate()
         os.close(terminal)
-        return process.returncode
+        self.assertIn(b"Start the search?", output)
+        return process.wait()
 
     def test_yes_at_the_terminal_starts_the_search(self):
         self.assertEqual(self.ask_at_a_terminal(b"y\n"), 0)
@@ -94,6 +97,18 @@ class Run(unittest.TestCase):
 
     def test_what_was_typed_before_the_plans_were_shown_is_no_consent(self):
         self.assertEqual(self.ask_at_a_terminal(b"n\n", typed_before=b"y\ny\n"), 3)
+        self.assertNotIn("searching", self.modes())
+
+    def test_without_a_screen_to_show_the_plans_on_nobody_is_asked(self):
+        terminal, far_end = pty.openpty()
+        os.write(terminal, b"y\n")
+        done = subprocess.run(
+            [IVO, "run", write_mission(self.folder), "--speed", "max", "--out", self.out],
+            stdin=far_end, capture_output=True, text=True, check=False,
+        )
+        os.close(far_end)
+        os.close(terminal)
+        self.assertEqual(done.returncode, 3, done.stdout)
         self.assertNotIn("searching", self.modes())
 
     def test_only_a_whole_yes_is_a_yes(self):
@@ -133,6 +148,56 @@ class Run(unittest.TestCase):
         self.assertEqual((report["end"], report["finder"], report["object_m"]), ("paths_ended", None, None))
         for agent in report["agents"]:
             self.assertAlmostEqual(agent["distance_m"], agent["planned_length_m"], delta=0.05 * agent["planned_length_m"] + 0.3)
+
+    def test_two_runs_into_one_folder_are_refused(self):
+        mission = MISSION.replace('object = "drawn"', 'object = "unknown"')
+        first = subprocess.Popen(
+            [IVO, "run", write_mission(self.folder, mission), "--yes", "--speed", "5", "--out", self.out],
+            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, text=True,
+        )
+        for line in first.stdout:
+            if line.startswith("searching"):
+                break
+        second = ivo("run", os.path.join(self.folder, "mission.toml"), "--yes", "--speed", "max", "--out", self.out)
+        first.send_signal(signal.SIGTERM)
+        first.communicate()
+        self.assertEqual(second.returncode, 2, second.stdout)
+        self.assertRegex(second.stderr, r"^ivo: .*another run is writing here.*\n$")
+        self.assertEqual(first.returncode, 1)
+        self.assertTrue(events(self.out))
+
+    def test_results_of_an_earlier_run_are_not_left_beside_new_ones(self):
+        os.mkdir(self.out)
+        for name in ("plan.json", "report.json", "search.png"):
+            with open(os.path.join(self.out, name), "w", encoding="utf-8") as file:
+                file.write("old")
+        process = subprocess.Popen(
+            [IVO, "run", write_mission(self.folder), "--yes", "--speed", "0.01", "--out", self.out],
+            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, text=True,
+        )
+        process.stdout.readline()
+        process.kill()
+        process.communicate()
+        self.assertFalse(set(os.listdir(self.out)) & {"plan.json", "report.json", "search.png"})
+
+    def test_the_plans_can_be_looked_at_before_anybody_consents(self):
+        done = ivo("run", write_mission(self.folder), "--speed", "max", "--out", self.out)
+        self.assertEqual(done.returncode, 3)
+        self.assertLess(done.stdout.index("search.png"), done.stdout.index("nobody consented"))
+
+    def test_a_run_has_the_same_result_at_every_speed(self):
+        for out, speed in (("fast", "max"), ("slow", "200")):
+            done = ivo("run", write_mission(self.folder), "--yes", "--speed", speed, "--out", os.path.join(self.folder, out))
+            self.assertEqual(done.returncode, 0, done.stderr)
+        for name in ("plan.json", "report.json"):
+            self.assertEqual(contents(os.path.join(self.folder, "fast"), name), contents(os.path.join(self.folder, "slow"), name), name)
+
+    def test_events_that_cannot_be_written_are_a_failure(self):
+        os.mkdir(self.out)
+        os.symlink("/dev/full", os.path.join(self.out, "events.jsonl"))
+        done = ivo("run", write_mission(self.folder), "--yes", "--speed", "max", "--out", self.out)
+        self.assertIn(done.returncode, (1, 2))
+        self.assertIn("events.jsonl", done.stderr)
 
     def test_an_output_folder_that_cannot_be_is_refused_before_anything_starts(self):
         blocked = os.path.join(self.folder, "file")

@@ -160,12 +160,9 @@ TEST(ReportFile, WritesAFindAndASearchWithoutOne) {
   report.reason = "seen by Ana";
   report.finder = "Ana";
   report.object = Point{3.5, 4};
-  report.score = {81, 81.5, 0, 0.01, 200, true};
+  report.score = ScoreDocument{81, 81.5, 0, 0.01, 200, true};
   report.real_search_time_s = 43.25;
   report.agents = {{"IVO", AgentKind::kRobot, 60, 15.5, 0.34, {1, 2}}};
-  report.cycles = 21625;
-  report.frames_sent = 5;
-  report.frames_received = 6;
   const std::string found = report_json(report);
   EXPECT_EQ(found,
             "{\n"
@@ -183,9 +180,6 @@ TEST(ReportFile, WritesAFindAndASearchWithoutOne) {
             "    {\"name\":\"IVO\",\"kind\":\"robot\",\"planned_length_m\":60.0,\"distance_m\":15.5,"
             "\"mean_speed_mps\":0.34,\"final_position_m\":[1.0,2.0]}\n"
             "  ],\n"
-            "  \"cycles\": 21625,\n"
-            "  \"frames_sent\": 5,\n"
-            "  \"frames_received\": 6,\n"
             "  \"drive_fault\": null\n"
             "}\n");
   report.end = RunEnd::kFault;
