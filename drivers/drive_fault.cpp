@@ -13,11 +13,13 @@ bool needs_start_up(DriveFaultReason reason) noexcept {
     case DriveFaultReason::kLeftOperational:
     case DriveFaultReason::kHeartbeatLost:
     case DriveFaultReason::kFeedbackLost:
+    case DriveFaultReason::kCommandsNotSent:
       return true;
     case DriveFaultReason::kNone:
     case DriveFaultReason::kEmergency:
     case DriveFaultReason::kDriveInFault:
     case DriveFaultReason::kLeftOperationEnabled:
+    case DriveFaultReason::kUnaskedState:
     case DriveFaultReason::kStateChangeTimedOut:
     case DriveFaultReason::kNotStill:
     case DriveFaultReason::kFaultResetFailed:

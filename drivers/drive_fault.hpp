@@ -17,18 +17,20 @@ enum class DriveFaultReason : std::uint8_t {
   kNotOperational,   ///< no heartbeat said Operational in time; code: the last NMT state heard, 0 for none
   // At any time.
   kRebooted,         ///< a boot-up message that nobody asked for
-  kEmergency,        ///< code: error code of the EMCY
+  kEmergency,        ///< code: error code of the EMCY, 0 for one of a wrong length
   kLeftOperational,  ///< code: NMT state
   kHeartbeatLost,
   kFeedbackLost,          ///< no TPDO1 for rates::kFeedbackTimeout
   kDriveInFault,          ///< code: statusword
   kLeftOperationEnabled,  ///< unasked; code: statusword
+  kUnaskedState,          ///< another power state than asked for, while ready or enabling; code: statusword
   kStateChangeTimedOut,   ///< a CiA 402 transition; code: statusword
   kNotStill,              ///< wheels still moved rates::kStandstillTimeout after a stop
   kFaultResetFailed,      ///< code: statusword
+  kCommandsNotSent,       ///< of no drive: the bus did not take kUnsentWrites writes in a row whole
 };
 
-/// Plain data, made in the loop. No fault: reason kNone.
+/// Plain data, made in the loop. No fault: reason kNone. node_id 0: of the bus, not of one drive.
 struct DriveFault {
   DriveFaultReason reason = DriveFaultReason::kNone;
   std::uint8_t node_id = 0;

@@ -46,7 +46,7 @@ std::string reason_of(const DriveFault& fault) {
     case DriveFaultReason::kRebooted:
       return "rebooted";
     case DriveFaultReason::kEmergency:
-      return "emergency " + hexadecimal(fault.code, 4);
+      return fault.code == 0 ? "emergency of a wrong length" : "emergency " + hexadecimal(fault.code, 4);
     case DriveFaultReason::kLeftOperational:
       return "left NMT state Operational (now " + hexadecimal(fault.code, 2) + ")";
     case DriveFaultReason::kHeartbeatLost:
@@ -57,12 +57,16 @@ std::string reason_of(const DriveFault& fault) {
       return "in fault (statusword " + hexadecimal(fault.code, 4) + ")";
     case DriveFaultReason::kLeftOperationEnabled:
       return "left Operation Enabled unasked (statusword " + hexadecimal(fault.code, 4) + ")";
+    case DriveFaultReason::kUnaskedState:
+      return "in a power state that was not asked for (statusword " + hexadecimal(fault.code, 4) + ")";
     case DriveFaultReason::kStateChangeTimedOut:
       return "did not change its power state in time (statusword " + hexadecimal(fault.code, 4) + ")";
     case DriveFaultReason::kNotStill:
       return "wheel not at rest in time after a stop";
     case DriveFaultReason::kFaultResetFailed:
       return "fault could not be reset (statusword " + hexadecimal(fault.code, 4) + ")";
+    case DriveFaultReason::kCommandsNotSent:
+      return "commands do not get out: the transmit queue is full or the interface is down";
   }
   return "unknown fault";
 }
@@ -70,7 +74,7 @@ std::string reason_of(const DriveFault& fault) {
 }  // namespace
 
 std::string describe(const DriveFault& fault) {
-  if (fault.reason == DriveFaultReason::kNone) {
+  if (fault.reason == DriveFaultReason::kNone || fault.node_id == 0) {
     return reason_of(fault);
   }
   const std::string drive = "drive " + std::to_string(fault.node_id) + " (" + std::string(name_of(fault.wheel)) + ")";

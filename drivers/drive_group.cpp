@@ -13,31 +13,18 @@ namespace {
 using cia402::PowerState;
 namespace controlword = cia402::controlword;
 
-WheelDrive make_drive(const Robot& robot, Wheel wheel) noexcept {
-  return {robot.drives[static_cast<std::size_t>(wheel)], wheel, robot.master_node_id};
-}
+constexpr int kSyncsToAct = 2;  // the first one lets an RPDO act, what a drive sends at the second is from after it
 
-bool in_fault(const WheelDrive& drive) noexcept {
-  const PowerState state = drive.power_state();
-  return state == PowerState::kFault || state == PowerState::kFaultReactionActive;
-}
-
-bool is_off(const WheelDrive& drive) noexcept {
-  const PowerState state = drive.power_state();
-  return state == PowerState::kNotReadyToSwitchOn || state == PowerState::kSwitchOnDisabled ||
-         state == PowerState::kReadyToSwitchOn;
-}
-
-PowerState next_step(PowerState step) noexcept {
-  return step == PowerState::kReadyToSwitchOn ? PowerState::kSwitchedOn : PowerState::kOperationEnabled;
+bool tells_off(std::uint16_t word) noexcept {
+  return word == controlword::kDisableVoltage || word == controlword::kShutdown || word == controlword::kFaultReset;
 }
 
 }  // namespace
 
 DriveGroup::DriveGroup(hal::CanBus& bus, const Robot& robot) noexcept
     : bus_(bus),
-      drives_{make_drive(robot, Wheel::kFrontLeft), make_drive(robot, Wheel::kFrontRight),
-              make_drive(robot, Wheel::kRearLeft), make_drive(robot, Wheel::kRearRight)},
+      drives_{WheelDrive(robot, Wheel::kFrontLeft), WheelDrive(robot, Wheel::kFrontRight),
+              WheelDrive(robot, Wheel::kRearLeft), WheelDrive(robot, Wheel::kRearRight)},
       master_node_id_(robot.master_node_id) {}
 
 void DriveGroup::open(Instant now) noexcept {
@@ -48,6 +35,9 @@ void DriveGroup::open(Instant now) noexcept {
   synchronous_ = false;
   enable_was_false_ = false;
   voltage_off_ = true;
+  told_off_ = false;
+  syncs_since_off_ = 0;
+  unsent_writes_ = 0;
   reset_asked_ = false;
   resetting_ = false;
   feedback_.fault = {};
@@ -62,45 +52,9 @@ void DriveGroup::on_frame(const hal::CanFrame& frame) noexcept {
   }
 }
 
-const GroupFeedback& DriveGroup::update(Instant now) noexcept {
-  for (WheelDrive& drive : drives_) {
-    drive.update(now);
-  }
-  collect();
-  if (!resetting_) {
-    latch_first(DriveFaultReason::kDriveInFault, in_fault);
-  }
-  switch (state_) {
-    case GroupState::kBooting:
-      update_booting(now);
-      break;
-    case GroupState::kReady:
-      break;
-    case GroupState::kEnabling:
-      update_enabling(now);
-      break;
-    case GroupState::kEnabled:
-      latch_first(DriveFaultReason::kLeftOperationEnabled,
-                  [](const WheelDrive& drive) { return drive.power_state() != PowerState::kOperationEnabled; });
-      break;
-    case GroupState::kStopping:
-      update_stopping(now);
-      break;
-    case GroupState::kFault:
-      update_fault(now);
-      break;
-  }
-  find_fault(now);
-  feedback_.state = state_;
-  return feedback_;
-}
-
 void DriveGroup::write(Instant now, bool enable, const WheelTargets& targets) noexcept {
   StaticVector<hal::CanFrame, kFramesPerWrite> frames;
   const auto add = [&frames](const hal::CanFrame& frame) { IVO_CONTRACT(frames.push_back(frame)); };
-  if (heartbeat_.due(now)) {
-    add(heartbeat_frame(master_node_id_, NmtState::kOperational));
-  }
   for (WheelDrive& drive : drives_) {
     if (const auto frame = drive.next_frame(now)) {
       add(*frame);
@@ -109,15 +63,31 @@ void DriveGroup::write(Instant now, bool enable, const WheelTargets& targets) no
   follow(now, enable);
   if (synchronous_) {
     add(sync_frame());
+    syncs_since_off_ = told_off_ ? std::min(syncs_since_off_ + 1, kSyncsToAct) : 0;
+    told_off_ = true;
     for (std::size_t i = 0; i < drives_.size(); ++i) {
       drives_[i].expect_feedback(now);
       const double radps = state_ == GroupState::kEnabled ? targets.radps[i] : 0.0;
-      add(drives_[i].command_frame(controlword_for(drives_[i], now), radps));
+      const std::uint16_t word = controlword_for(drives_[i], now);
+      told_off_ = told_off_ && tells_off(word);
+      add(drives_[i].command_frame(word, radps));
     }
   }
-  if (!frames.empty()) {
-    bus_.send(frames.span());
+  if (unsent_writes_ == 0 && heartbeat_.due(now)) {
+    add(heartbeat_frame(master_node_id_, NmtState::kOperational));
   }
+  send(frames.span());
+}
+
+void DriveGroup::send(std::span<const hal::CanFrame> frames) noexcept {
+  const bool whole = frames.empty() || bus_.send(frames) == frames.size();
+  if (whole) {
+    unsent_writes_ = 0;
+    return;
+  }
+  unsent_writes_ = std::min(unsent_writes_ + 1, kUnsentWrites);
+  told_off_ = false;
+  syncs_since_off_ = 0;
 }
 
 void DriveGroup::stop(Instant now) noexcept {
@@ -146,119 +116,6 @@ std::uint64_t DriveGroup::malformed() const noexcept {
   return sum;
 }
 
-void DriveGroup::collect() noexcept {
-  feedback_.fresh = synchronous_;
-  bool still = true;
-  for (std::size_t i = 0; i < drives_.size(); ++i) {
-    feedback_.angle_rad[i] = drives_[i].encoder().angle_rad();
-    feedback_.radps[i] = drives_[i].encoder().radps();
-    feedback_.fresh = feedback_.fresh && drives_[i].fresh();
-    still = still && drives_[i].encoder().still();
-  }
-  feedback_.standstill = feedback_.fresh && still;
-}
-
-template <class Condition>
-void DriveGroup::latch_first(DriveFaultReason reason, const Condition& at_fault) noexcept {
-  const auto drive = std::find_if(drives_.begin(), drives_.end(), at_fault);
-  if (drive != drives_.end()) {
-    drive->latch(reason, drive->statusword());
-  }
-}
-
-void DriveGroup::find_fault(Instant now) noexcept {
-  if (state_ == GroupState::kFault && !resetting_) {
-    return;
-  }
-  const auto faulty = std::find_if(drives_.begin(), drives_.end(), [](const WheelDrive& drive) {
-    return drive.fault().reason != DriveFaultReason::kNone;
-  });
-  if (faulty == drives_.end()) {
-    return;
-  }
-  if (state_ != GroupState::kFault && state_ != GroupState::kStopping) {
-    quick_stop_since_ = now;
-  }
-  feedback_.fault = faulty->fault();
-  enter(GroupState::kFault, now);
-  enable_was_false_ = false;
-  reset_asked_ = false;
-  resetting_ = false;
-}
-
-void DriveGroup::update_booting(Instant now) noexcept {
-  const auto all_reached = [this](WheelDrive::Phase phase) {
-    return std::all_of(drives_.begin(), drives_.end(),
-                       [phase](const WheelDrive& drive) { return drive.phase() == phase; });
-  };
-  if (all_reached(WheelDrive::Phase::kConfigured)) {
-    for (WheelDrive& drive : drives_) {
-      drive.start();
-    }
-  } else if (all_reached(WheelDrive::Phase::kOperational)) {
-    synchronous_ = true;
-    enter(GroupState::kReady, now);
-  }
-}
-
-void DriveGroup::update_enabling(Instant now) noexcept {
-  const auto elsewhere = [this](const WheelDrive& drive) { return drive.power_state() != step_; };
-  if (feedback_.fresh && std::none_of(drives_.begin(), drives_.end(), elsewhere)) {
-    const bool last = step_ == PowerState::kOperationEnabled;
-    enter(last ? GroupState::kEnabled : GroupState::kEnabling, now);
-    step_ = next_step(step_);
-  } else if (now - since_ > rates::kStateChangeTimeout) {
-    latch_first(DriveFaultReason::kStateChangeTimedOut, elsewhere);
-  }
-}
-
-void DriveGroup::update_stopping(Instant now) noexcept {
-  const Duration passed = now - since_;
-  if (feedback_.standstill && all_off()) {
-    enter(GroupState::kReady, now);
-  } else if (passed > rates::kStandstillTimeout && !feedback_.standstill) {
-    latch_first(DriveFaultReason::kNotStill, [](const WheelDrive& drive) { return !drive.encoder().still(); });
-  } else if (passed > rates::kStandstillTimeout + rates::kStateChangeTimeout) {
-    latch_first(DriveFaultReason::kStateChangeTimedOut, [](const WheelDrive& drive) { return !is_off(drive); });
-  }
-}
-
-void DriveGroup::update_fault(Instant now) noexcept {
-  if (resetting_) {
-    update_resetting(now);
-    return;
-  }
-  // A reset takes the quick stop away: it waits until the wheels rest or the quick stop had its time.
-  const bool at_rest = !synchronous_ || quick_stop_over(now);
-  if (!reset_asked_ || !at_rest) {
-    return;
-  }
-  reset_asked_ = false;
-  const bool anew = std::any_of(drives_.begin(), drives_.end(), [](const WheelDrive& drive) {
-    return drive.phase() != WheelDrive::Phase::kOperational || needs_start_up(drive.fault().reason);
-  });
-  if (anew) {
-    open(now);
-    return;
-  }
-  for (WheelDrive& drive : drives_) {
-    drive.clear_fault();
-  }
-  resetting_ = true;
-  since_ = now;
-}
-
-void DriveGroup::update_resetting(Instant now) noexcept {
-  if (feedback_.fresh && all_off()) {
-    resetting_ = false;
-    voltage_off_ = true;
-    feedback_.fault = {};
-    enter(GroupState::kReady, now);
-  } else if (now - since_ > rates::kStateChangeTimeout) {
-    latch_first(DriveFaultReason::kFaultResetFailed, [](const WheelDrive& drive) { return !is_off(drive); });
-  }
-}
-
 void DriveGroup::follow(Instant now, bool enable) noexcept {
   if (!enable) {
     enable_was_false_ = true;
@@ -267,6 +124,7 @@ void DriveGroup::follow(Instant now, bool enable) noexcept {
   if (enable && enable_was_false_ && state_ == GroupState::kReady) {
     enter(GroupState::kEnabling, now);
     step_ = PowerState::kReadyToSwitchOn;
+    was_enabled_ = true;
   } else if (!enable && powered) {
     begin_stop(now);
     voltage_off_ = false;
@@ -281,6 +139,7 @@ void DriveGroup::begin_stop(Instant now) noexcept {
 void DriveGroup::enter(GroupState state, Instant now) noexcept {
   state_ = state;
   since_ = now;
+  powered_since_.reset();
 }
 
 std::uint16_t DriveGroup::controlword_for(const WheelDrive& drive, Instant now) const noexcept {
@@ -297,7 +156,7 @@ std::uint16_t DriveGroup::controlword_for(const WheelDrive& drive, Instant now) 
       return quick_stop_over(now) ? off_word() : controlword::kQuickStop;
     case GroupState::kFault:
       if (resetting_) {
-        return in_fault(drive) ? controlword::kFaultReset : controlword::kDisableVoltage;
+        return drive.in_fault() ? controlword::kFaultReset : controlword::kDisableVoltage;
       }
       return quick_stop_over(now) ? controlword::kDisableVoltage : controlword::kQuickStop;
   }
@@ -312,6 +171,26 @@ bool DriveGroup::quick_stop_over(Instant now) const noexcept {
   return feedback_.standstill || now - quick_stop_since_ > rates::kStandstillTimeout;
 }
 
-bool DriveGroup::all_off() const noexcept { return std::all_of(drives_.begin(), drives_.end(), is_off); }
+bool DriveGroup::may_end(Instant now) const noexcept {
+  if (state_ == GroupState::kBooting) {
+    return true;
+  }
+  if (state_ != GroupState::kReady && state_ != GroupState::kFault) {
+    return false;
+  }
+  if (!synchronous_) {
+    return std::all_of(drives_.begin(), drives_.end(),
+                       [](const WheelDrive& drive) { return drive.stopped_or_failed(); });
+  }
+  const auto answers = [now](const WheelDrive& drive) { return drive.answers(now); };
+  if (!was_enabled_ && std::none_of(drives_.begin(), drives_.end(), answers)) {
+    return true;
+  }
+  return syncs_since_off_ == kSyncsToAct && std::all_of(drives_.begin(), drives_.end(), [&](const WheelDrive& drive) {
+           return !answers(drive) || drive.off() || drive.power_state() == PowerState::kFault;
+         });
+}
+
+bool DriveGroup::all_off() const noexcept { return std::ranges::all_of(drives_, &WheelDrive::off); }
 
 }  // namespace ivo::drivers

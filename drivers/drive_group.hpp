@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <span>
 
 #include "config/base/static_vector.hpp"
 #include "config/base/time.hpp"
@@ -34,15 +36,23 @@ struct GroupFeedback {
   std::array<double, kWheels> angle_rad{};  ///< at the wheel, unwrapped, 0 at the first feedback
   std::array<double, kWheels> radps{};      ///< at the wheel, mean over the last 14 ms
   bool fresh = false;                       ///< the TPDO1 of all four for the last SYNC are in
-  bool standstill = false;                  ///< fresh, and no wheel moved for rates::kStandstillDwell
-  DriveFault fault;                         ///< of kFault; the first one found
+  bool standstill = false;                  ///< fresh, and all wheels at rest (wheel_encoder.hpp)
+  /// Nothing that we could still say would stop a wheel sooner: the loop may end.
+  /// kBooting: true. kEnabling, kEnabled, kStopping: false. kReady, kFault: every drive whose TPDO1 arrives says that
+  /// its power is off (Fault included), and two SYNCs went out since all four were told so: RPDOs act at the next SYNC,
+  /// and what a drive sends then may still be from before. In kFault of start-up: each drive has confirmed voltage off
+  /// or failed itself. True also when no drive answers and none was ever enabled.
+  bool off = true;
+  DriveFault fault;  ///< of kFault; the first one found
 };
 
 /// Each cycle, in this order: on_frame for every frame received, update, write. Nothing waits, allocates or throws.
 ///
 /// Motion is earned: enable must have been false once since open(), stop() or a fault before true counts, and targets
 /// other than zero go out only while all four are Operation Enabled. Any drive's fault, emergency, reboot, silence or
-/// unasked change of state latches kFault for all four in the same update, and write then carries the stop.
+/// unasked change of state latches kFault for all four in the same update, and write then carries the stop. So do
+/// kUnsentWrites writes in a row that the bus did not take whole. Being powered in kReady is forgiven for
+/// rates::kUnaskedPowerTimeout.
 class DriveGroup {
  public:
   /// `bus` outlives this. Silent until open(), save for the heartbeat that write() sends.
@@ -54,9 +64,11 @@ class DriveGroup {
   void on_frame(const hal::CanFrame& frame) noexcept;
   /// Valid until the next call.
   const GroupFeedback& update(Instant now) noexcept;
-  /// Sends at most kFramesPerWrite frames in one CanBus::send: our heartbeat and start-up, then SYNC, then four RPDO1,
-  /// which the drives act on at the next SYNC. Without `enable` no frame goes out that could move a wheel: moving
-  /// wheels get a quick stop, so a gentle stop is ramped down by the targets first; wheels at rest get shutdown.
+  /// Sends at most kFramesPerWrite frames in one CanBus::send: start-up, SYNC, four RPDO1, which the drives act on at
+  /// the next SYNC, and last our heartbeat: a bus that does not take all takes no heartbeat, nor is one sent in the
+  /// write after, so drives that we do not reach stop by themselves. Without `enable` no frame goes out that could move
+  /// a wheel: moving wheels get a quick stop, so a gentle stop is ramped down by the targets first; wheels at rest get
+  /// shutdown.
   void write(Instant now, bool enable, const WheelTargets& targets) noexcept;
   /// Quick stop, power off when still: kStopping, then kReady. Idempotent; without effect in kBooting, kReady, kFault
   /// save that enable must have been false before it counts again.
@@ -68,9 +80,10 @@ class DriveGroup {
   /// Answers that are on their way (boot-up, SDO, Operational), those to SYNC not counted: for lock-step time.
   [[nodiscard]] int answers_awaited() const noexcept;
   [[nodiscard]] bool awaiting_answer() const noexcept { return answers_awaited() > 0; }
-  /// Frames of a drive with a wrong length, not looked at.
+  /// Frames of a drive with a wrong length; an emergency counts all the same, no other is looked at.
   [[nodiscard]] std::uint64_t malformed() const noexcept;
 
+  static constexpr int kUnsentWrites = 5;
   static constexpr std::size_t kFramesPerWrite = 1 + kWheels + 1 + kWheels;
 
  private:
@@ -79,6 +92,7 @@ class DriveGroup {
   void latch_first(DriveFaultReason reason, const Condition& at_fault) noexcept;
   void find_fault(Instant now) noexcept;
 
+  void watch_unasked_power(Instant now) noexcept;
   void update_booting(Instant now) noexcept;
   void update_enabling(Instant now) noexcept;
   void update_stopping(Instant now) noexcept;
@@ -86,12 +100,14 @@ class DriveGroup {
   void update_resetting(Instant now) noexcept;
 
   void follow(Instant now, bool enable) noexcept;
+  void send(std::span<const hal::CanFrame> frames) noexcept;
   void begin_stop(Instant now) noexcept;
   void enter(GroupState state, Instant now) noexcept;
   [[nodiscard]] std::uint16_t controlword_for(const WheelDrive& drive, Instant now) const noexcept;
   [[nodiscard]] std::uint16_t off_word() const noexcept;
   [[nodiscard]] bool quick_stop_over(Instant now) const noexcept;
   [[nodiscard]] bool all_off() const noexcept;
+  [[nodiscard]] bool may_end(Instant now) const noexcept;
 
   hal::CanBus& bus_;
   std::array<WheelDrive, kWheels> drives_;
@@ -99,12 +115,17 @@ class DriveGroup {
   std::uint8_t master_node_id_;
   GroupFeedback feedback_;
   GroupState state_ = GroupState::kBooting;
-  Instant since_{};                // when state_, or the present step of kEnabling or of a reset, was entered
-  Instant quick_stop_since_{};     // when the present quick stop began
-  cia402::PowerState step_{};      // of kEnabling: the state that all four are to reach next
-  bool synchronous_ = false;       // all four are Operational: SYNC and RPDO1 go out
-  bool enable_was_false_ = false;  // since open, stop or fault
-  bool voltage_off_ = true;        // kStopping ends and kReady rests with the voltage disabled, else by shutdown
+  Instant since_{};                       // when state_, or the present step of kEnabling or of a reset, was entered
+  Instant quick_stop_since_{};            // when the present quick stop began
+  cia402::PowerState step_{};             // of kEnabling: the state that all four are to reach next
+  bool synchronous_ = false;              // all four are Operational: SYNC and RPDO1 go out
+  bool enable_was_false_ = false;         // since open, stop or fault
+  bool voltage_off_ = true;               // kStopping ends and kReady rests with the voltage disabled, else by shutdown
+  bool was_enabled_ = false;              // or was about to be, since construction
+  bool told_off_ = false;                 // the last four RPDO1 that went out told all to be off
+  int syncs_since_off_ = 0;               // SYNCs that went out after such, in a row
+  int unsent_writes_ = 0;                 // in a row, not taken whole by the bus
+  std::optional<Instant> powered_since_;  // in kReady, unasked
   bool reset_asked_ = false;
   bool resetting_ = false;  // in kFault: the drives' fault reset is under way
 };

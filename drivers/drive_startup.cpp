@@ -1,6 +1,7 @@
 #include "drivers/drive_startup.hpp"
 
 #include "config/rates.hpp"
+#include "drivers/cia402/objects.hpp"
 
 namespace ivo::drivers {
 
@@ -11,6 +12,7 @@ void DriveStartup::open() noexcept {
   phase_ = Phase::kResetting;
   booted_ = false;
   booted_twice_ = false;
+  stopped_ = false;
   heard_ = NmtState::kBootUp;
   mode_deadline_.reset();
   fault_ = {};
@@ -97,6 +99,7 @@ bool DriveStartup::awaiting_answer() const noexcept {
 }
 
 void DriveStartup::next_step() noexcept {
+  stopped_ = stopped_ || step().object == object::kControlword;
   if (++step_ == steps_.size()) {
     phase_ = Phase::kConfigured;
   } else {
@@ -113,6 +116,7 @@ void DriveStartup::begin_step() noexcept {
       sdo_.start_download(step().object, step().bytes, static_cast<std::uint8_t>(mode_));
       break;
     case StepAction::kVerify:
+    case StepAction::kVerifyOneOf:
     case StepAction::kChooseMode:
     case StepAction::kVerifyMode:
       sdo_.start_upload(step().object, step().bytes);
@@ -141,9 +145,7 @@ void DriveStartup::judge_failure() noexcept {
     fail(silent ? DriveFaultReason::kNoAnswer : DriveFaultReason::kSdoTimedOut, step().name, 0);
     return;
   }
-  const bool tolerated = step().tolerate == Tolerate::kAnyAbort ||
-                         (step().tolerate == Tolerate::kValueRange && sdo_.abort_code() == SdoAbort::kValueRange);
-  if (tolerated) {
+  if (step().may_refuse) {
     next_step();
   } else {
     fail(DriveFaultReason::kSdoAborted, step().name, static_cast<std::uint32_t>(sdo_.abort_code()));
@@ -158,6 +160,11 @@ void DriveStartup::judge_value(Instant now) noexcept {
       break;
     case StepAction::kVerify:
       if ((value & step().mask) != step().value) {
+        return fail(DriveFaultReason::kUnexpectedValue, step().name, value);
+      }
+      break;
+    case StepAction::kVerifyOneOf:
+      if (value >= 32 || (step().value >> value & 1) == 0) {
         return fail(DriveFaultReason::kUnexpectedValue, step().name, value);
       }
       break;

@@ -45,6 +45,8 @@ class DriveStartup {
 
   [[nodiscard]] Phase phase() const noexcept { return phase_; }
   [[nodiscard]] const DriveFault& fault() const noexcept { return fault_; }
+  /// Voltage off was written and confirmed since open, or start-up failed and no more can be said to the drive.
+  [[nodiscard]] bool stopped_or_failed() const noexcept { return stopped_ || phase_ == Phase::kFailed; }
   /// True while exactly one answer of the node is on its way.
   [[nodiscard]] bool awaiting_answer() const noexcept;
 
@@ -66,6 +68,7 @@ class DriveStartup {
   cia402::Mode mode_{};
   bool booted_ = false;
   bool booted_twice_ = false;
+  bool stopped_ = false;
   NmtState heard_ = NmtState::kBootUp;
   Instant deadline_{};  // of kBooting and kConfirming
   std::optional<Instant> mode_deadline_;

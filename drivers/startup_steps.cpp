@@ -7,6 +7,7 @@
 #include "drivers/canopen/cob_id.hpp"
 #include "drivers/canopen/communication_objects.hpp"
 #include "drivers/canopen/pdo.hpp"
+#include "drivers/cia402/controlword.hpp"
 #include "drivers/cia402/objects.hpp"
 
 namespace ivo::drivers {
@@ -43,6 +44,17 @@ void add_identity(StartupSteps& steps, const DriveParameters& drive) noexcept {
                 .bytes = 4,
                 .value = drive.product_code});
   }
+}
+
+void add_stop(StartupSteps& steps) noexcept {
+  add(steps, {.name = "target velocity 60FFh", .object = object::kTargetVelocity, .bytes = 4, .value = 0});
+  add(steps, {.name = "controlword 6040h",
+              .object = object::kControlword,
+              .bytes = 2,
+              .value = cia402::controlword::kDisableVoltage});
+}
+
+void add_mode_choice(StartupSteps& steps) noexcept {
   add(steps, {.name = "supported drive modes 6502h",
               .action = StepAction::kChooseMode,
               .object = object::kSupportedModes,
@@ -66,12 +78,23 @@ void add_supervision(StartupSteps& steps, std::uint8_t master_node_id) noexcept 
               .object = object::kQuickStopOption,
               .bytes = 2,
               .value = cia402::kQuickStopRampThenOff,
-              .tolerate = Tolerate::kValueRange});
+              .may_refuse = true});
+  add(steps, {.name = "quick stop option code 605Ah in force: 1, 2, 5 or 6, a ramp",
+              .action = StepAction::kVerifyOneOf,
+              .object = object::kQuickStopOption,
+              .bytes = 2,
+              .value = cia402::kQuickStopsWithRamp});
   add(steps, {.name = "abort connection option code 6007h",
               .object = object::kAbortConnectionOption,
               .bytes = 2,
               .value = cia402::kQuickStopOnLostMaster,
-              .tolerate = Tolerate::kAnyAbort});
+              .may_refuse = true});
+  add(steps, {.name = "abort connection option code 6007h in force: 1, 2 or 3, or the drive would go on moving without "
+                      "its master",
+              .action = StepAction::kVerifyOneOf,
+              .object = object::kAbortConnectionOption,
+              .bytes = 2,
+              .value = cia402::kStopsOnLostMaster});
 }
 
 struct PdoNames {
@@ -126,6 +149,8 @@ constexpr PdoNames kTpdoNames{"disable TPDO1 1800h:1",           "clear TPDO1 ma
 StartupSteps startup_steps(const DriveParameters& drive, std::uint8_t master_node_id) noexcept {
   StartupSteps steps;
   add_identity(steps, drive);
+  add_stop(steps);
+  add_mode_choice(steps);
   add_supervision(steps, master_node_id);
   add_pdo(steps, {.names = kRpdoNames,
                   .cob_id_object = object::kRpdo1CobId,
@@ -141,7 +166,6 @@ StartupSteps startup_steps(const DriveParameters& drive, std::uint8_t master_nod
                   .cob_id = cob_id::tpdo1(drive.node_id) | cob_id::kPdoNoRemote,
                   .first = object::mapped(object::kStatusword, 16),
                   .second = object::mapped(object::kPositionActual, 32)});
-  add(steps, {.name = "target velocity 60FFh", .object = object::kTargetVelocity, .bytes = 4, .value = 0});
   add(steps, {.name = "mode of operation 6060h",
               .action = StepAction::kWriteMode,
               .object = object::kModeOfOperation,

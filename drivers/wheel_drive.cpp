@@ -9,6 +9,8 @@
 namespace ivo::drivers {
 namespace {
 
+using cia402::PowerState;
+
 template <class T>
 bool keep(std::optional<T>& slot, const std::optional<T>& parsed) noexcept {
   if (parsed.has_value()) {
@@ -19,8 +21,11 @@ bool keep(std::optional<T>& slot, const std::optional<T>& parsed) noexcept {
 
 }  // namespace
 
-WheelDrive::WheelDrive(const DriveParameters& drive, Wheel wheel, std::uint8_t master_node_id) noexcept
-    : parameters_(drive), wheel_(wheel), startup_(drive, wheel, master_node_id), encoder_(drive) {}
+WheelDrive::WheelDrive(const Robot& robot, Wheel wheel) noexcept
+    : parameters_(robot.drives[static_cast<std::size_t>(wheel)]),
+      wheel_(wheel),
+      startup_(parameters_, wheel, robot.master_node_id),
+      encoder_(parameters_, robot.base.wheel_radius_m) {}
 
 void WheelDrive::open() noexcept {
   startup_.open();
@@ -58,10 +63,10 @@ void WheelDrive::on_frame(const hal::CanFrame& frame) noexcept {
     startup_.on_sdo(frame);
   } else if (frame.id == cob_id::emcy(node)) {
     const std::optional<Emergency> emergency = parse_emergency(frame);
-    if (!emergency.has_value()) {
-      ++malformed_;
-    } else if (emergency->code != 0 && !heard_.emergency.has_value()) {
-      heard_.emergency = emergency;
+    malformed_ += emergency.has_value() ? 0 : 1;
+    const bool errors_gone = emergency.has_value() && emergency->code == 0;
+    if (!errors_gone && !heard_.emergency.has_value()) {
+      heard_.emergency = emergency.value_or(Emergency{});
     }
   }
 }
@@ -108,9 +113,26 @@ void WheelDrive::watch(Instant now) noexcept {
     latch(DriveFaultReason::kLeftOperational, static_cast<std::uint32_t>(*heard_.heartbeat));
   } else if (heartbeat_.lost(now)) {
     latch(DriveFaultReason::kHeartbeatLost, 0);
-  } else if (last_feedback_.has_value() && now - *last_feedback_ > rates::kFeedbackTimeout) {
+  } else if (last_feedback_.has_value() && !answers(now)) {
     latch(DriveFaultReason::kFeedbackLost, 0);
   }
+}
+
+bool WheelDrive::off() const noexcept {
+  const PowerState state = power_state();
+  return state == PowerState::kNotReadyToSwitchOn || state == PowerState::kSwitchOnDisabled ||
+         state == PowerState::kReadyToSwitchOn;
+}
+
+bool WheelDrive::powered() const noexcept {
+  const PowerState state = power_state();
+  return state == PowerState::kSwitchedOn || state == PowerState::kOperationEnabled ||
+         state == PowerState::kQuickStopActive;
+}
+
+bool WheelDrive::in_fault() const noexcept {
+  const PowerState state = power_state();
+  return state == PowerState::kFault || state == PowerState::kFaultReactionActive;
 }
 
 hal::CanFrame WheelDrive::command_frame(std::uint16_t controlword, double radps) const noexcept {

@@ -22,7 +22,7 @@ class WheelDrive {
  public:
   using Phase = DriveStartup::Phase;
 
-  WheelDrive(const DriveParameters& drive, Wheel wheel, std::uint8_t master_node_id) noexcept;
+  WheelDrive(const Robot& robot, Wheel wheel) noexcept;
 
   /// Begins start-up anew; the fault is forgotten, the wheel's angle is kept.
   void open() noexcept;
@@ -47,12 +47,22 @@ class WheelDrive {
   [[nodiscard]] Phase phase() const noexcept { return startup_.phase(); }
   [[nodiscard]] const DriveFault& fault() const noexcept { return fault_; }
   [[nodiscard]] bool awaiting_answer() const noexcept { return startup_.awaiting_answer(); }
+  /// Its TPDO1 came, or was first asked for, within rates::kFeedbackTimeout.
+  [[nodiscard]] bool answers(Instant now) const noexcept {
+    return last_feedback_.has_value() && now - *last_feedback_ <= rates::kFeedbackTimeout;
+  }
+  [[nodiscard]] bool stopped_or_failed() const noexcept { return startup_.stopped_or_failed(); }
   /// The TPDO1 of the last SYNC is in.
   [[nodiscard]] bool fresh() const noexcept { return fresh_; }
   [[nodiscard]] std::uint16_t statusword() const noexcept { return status_.statusword; }
   [[nodiscard]] cia402::PowerState power_state() const noexcept { return cia402::power_state(status_.statusword); }
+  /// Power off and no fault; true before the first feedback.
+  [[nodiscard]] bool off() const noexcept;
+  /// Switched On or beyond: the wheel may be driven.
+  [[nodiscard]] bool powered() const noexcept;
+  [[nodiscard]] bool in_fault() const noexcept;
   [[nodiscard]] const WheelEncoder& encoder() const noexcept { return encoder_; }
-  /// Frames of ours with a wrong length, not looked at.
+  /// Frames of ours with a wrong length, not looked at, save that an emergency is one whatever its length.
   [[nodiscard]] std::uint64_t malformed() const noexcept { return malformed_; }
 
  private:

@@ -4,6 +4,7 @@
 
 passed=0
 failed=0
+skipped_in_all=0
 table=()
 
 # A line of the stage's output every few seconds: enough to see that it moves and where.
@@ -28,12 +29,13 @@ count() {
   skipped=$(grep -m 1 -oP '\bskipped="\K[0-9]+' "$report")
   passed=$((passed + total - wrong - skipped))
   failed=$((failed + wrong))
+  skipped_in_all=$((skipped_in_all + skipped))
 }
 
 finish() {
   printf '\n%-16s %8s\n' stage minutes
   printf '%s\n' "${table[@]}"
-  printf '\n%d passed, %d failed\n' "$passed" "$failed"
+  printf '\n%d passed, %d failed, %d skipped\n' "$passed" "$failed" "$skipped_in_all"
 }
 
 run_stages() {

@@ -24,8 +24,14 @@ inline constexpr ObjectAddress kSupportedModes{0x6502, 0};
 
 namespace ivo::drivers::cia402 {
 
-inline constexpr std::uint16_t kProfileNumber = 0x0192;    // low word of 1000h: 402
-inline constexpr std::uint8_t kQuickStopRampThenOff = 2;   // 605Ah: quick-stop ramp, then Switch On Disabled
-inline constexpr std::uint8_t kQuickStopOnLostMaster = 3;  // 6007h
+inline constexpr std::uint16_t kProfileNumber = 0x0192;      // low word of 1000h: 402
+inline constexpr std::uint8_t kQuickStopRampThenOff = 2;     // 605Ah: quick-stop ramp, then Switch On Disabled
+inline constexpr std::uint8_t kFirstQuickStopThatStays = 5;  // 605Ah: from here on Quick Stop Active is kept
+inline constexpr std::uint8_t kQuickStopOnLostMaster = 3;    // 6007h
+
+// Sets of values, bit n for value n.
+inline constexpr std::uint32_t kQuickStopsWithRamp = 1U << 1 | 1U << 2 | 1U << 5 | 1U << 6;  // 605Ah
+inline constexpr std::uint32_t kStopsOnLostMaster =
+    1U << 1 | 1U << 2 | 1U << 3;  // 6007h: fault, voltage off, quick stop
 
 }  // namespace ivo::drivers::cia402

@@ -50,6 +50,7 @@ void SimDrive::emit(const hal::CanFrame& frame, Outbox& out) const noexcept {
 }
 
 void SimDrive::advance_to(Instant now, Outbox& out) noexcept {
+  hold_stuck_object();
   const auto passed = std::chrono::duration_cast<std::chrono::microseconds>(now - now_);
   if (passed.count() > 0) {
     now_ += passed;
@@ -72,7 +73,13 @@ void SimDrive::move(Duration time) noexcept {
   const std::int32_t target = follows ? std::bit_cast<std::int32_t>(get(object::kTargetVelocity)) : 0;
   motion_.advance(time, target, {get(object::kProfileAcceleration), down});
   if (motion_.at_rest()) {
-    power_.at_rest(get(object::kQuickStopOption) != cia402::kQuickStopRampThenOff);
+    power_.at_rest(get(object::kQuickStopOption) >= cia402::kFirstQuickStopThatStays);
+  }
+}
+
+void SimDrive::hold_stuck_object() noexcept {
+  if (script_.stuck.has_value()) {
+    objects_.set(script_.stuck->object, script_.stuck->value);
   }
 }
 
@@ -129,6 +136,7 @@ Duration SimDrive::sync_period() const noexcept {
 }
 
 void SimDrive::on_frame(const hal::CanFrame& frame, Outbox& out) noexcept {
+  hold_stuck_object();
   const bool operational = nmt_ == NmtState::kOperational;
   const std::uint32_t rpdo = objects_.get(object::kRpdo1CobId);
   const std::uint32_t master = objects_.get(object::kConsumerHeartbeat);

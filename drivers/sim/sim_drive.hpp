@@ -68,6 +68,7 @@ class SimDrive {
   [[nodiscard]] int mapped_bits(ObjectAddress count) const noexcept;
   void move(Duration time) noexcept;
   void refresh_actual_values() noexcept;
+  void hold_stuck_object() noexcept;
   void follow_script(Outbox& out) noexcept;
   void watch_master(Outbox& out) noexcept;
 

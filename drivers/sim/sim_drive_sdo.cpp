@@ -49,7 +49,8 @@ void SimDrive::on_sdo(const SdoMessage& request, Outbox& out) noexcept {
     refresh_actual_values();
     return answer(sdo_command::expedited(sdo_command::kUpload, entry->bytes), entry->value);
   }
-  if (const auto refused = download(request, out)) {
+  const bool stuck = script_.stuck.has_value() && script_.stuck->object == request.address;
+  if (const auto refused = stuck ? script_.stuck->code : download(request, out)) {
     return abort(*refused);
   }
   answer(sdo_command::kDownloaded, 0);

@@ -24,12 +24,13 @@ constexpr std::array<const char*, 5> kEnds = {"found", "paths_ended", "stopped",
 Json json_of(Point p) { return Json::array({p.x_m, p.y_m}); }
 
 Json json_of(const ScoreDocument& s) {
-  return {{"expected_time_s", s.expected_time_s},
-          {"expected_time_continuous_s", s.expected_time_continuous_s},
-          {"expected_sub_prior_time_s", s.expected_sub_prior_time_s},
-          {"unseen_mass", s.unseen_mass},
-          {"horizon_s", s.horizon_s},
-          {"complete", s.complete}};
+  return {
+      {"expected_time_s", s.expected_time_s},
+      {"expected_time_continuous_s", s.expected_time_continuous_s},
+      {"expected_sub_prior_time_s", s.expected_sub_prior_time_s ? Json(*s.expected_sub_prior_time_s) : Json(nullptr)},
+      {"unseen_mass", s.unseen_mass},
+      {"horizon_s", s.horizon_s},
+      {"complete", s.complete}};
 }
 
 /// Names and reasons may come from elsewhere: what is not UTF-8 is shown as such instead of ending the program.
@@ -159,7 +160,10 @@ ScoreDocument read_score(Reading& reading, const Json& json) {
   ScoreDocument score;
   score.expected_time_s = reading.number(json, "score.", "expected_time_s", 0.0, 1e9);
   score.expected_time_continuous_s = reading.number(json, "score.", "expected_time_continuous_s", 0.0, 1e9);
-  score.expected_sub_prior_time_s = reading.number(json, "score.", "expected_sub_prior_time_s", 0.0, 1e9);
+  if (const Json* const time = reading.field(json, "score.", "expected_sub_prior_time_s");
+      time != nullptr && !time->is_null()) {
+    score.expected_sub_prior_time_s = reading.number(json, "score.", "expected_sub_prior_time_s", 0.0, 1e9);
+  }
   score.unseen_mass = reading.number(json, "score.", "unseen_mass", 0.0, 1.0);
   score.horizon_s = reading.number(json, "score.", "horizon_s", 0.0, 1e9);
   score.complete = reading.flag(json, "score.", "complete");
@@ -192,7 +196,7 @@ PlanDocument read_document(Reading& reading, const Json& json) {
     reading.fault("format", std::to_string(format) + " is another version of this file's form; expected 1");
   }
   plan.mission = reading.text(json, "", "mission");
-  plan.map_path = reading.text(json, "", "map");
+  plan.map = reading.text(json, "", "map");
   plan.seed = reading.count(json, "", "seed", std::numeric_limits<std::uint64_t>::max());
   plan.profile = reading.text(json, "", "profile");
   plan.cell_m = reading.number(json, "", "cell_m", 0.0, 1e4);
@@ -230,7 +234,7 @@ std::string plan_json(const PlanDocument& plan) {
   }
   const Json json = {{"format", kFormat},
                      {"mission", plan.mission},
-                     {"map", plan.map_path},
+                     {"map", plan.map},
                      {"seed", plan.seed},
                      {"profile", plan.profile},
                      {"cell_m", plan.cell_m},
@@ -249,9 +253,9 @@ std::string report_json(const ReportDocument& report) {
     agents.push_back({{"name", agent.name},
                       {"kind", kKinds[static_cast<std::size_t>(agent.kind)]},
                       {"planned_length_m", agent.planned_length_m},
-                      {"distance_m", agent.distance_m},
-                      {"mean_speed_mps", agent.mean_speed_mps},
-                      {"final_position_m", json_of(agent.final_position)}});
+                      {"distance_m", agent.driven ? Json(agent.driven->distance_m) : Json(nullptr)},
+                      {"mean_speed_mps", agent.driven ? Json(agent.driven->mean_speed_mps) : Json(nullptr)},
+                      {"final_position_m", agent.driven ? json_of(agent.driven->final_position) : Json(nullptr)}});
   }
   const Json json = {{"format", kFormat},
                      {"mission", report.mission},

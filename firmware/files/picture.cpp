@@ -41,12 +41,17 @@ class Scene {
     pen_.clip(layout_.map);
     map(false);
     probability();
+    out_of_sight();
     // Obstacles once more: the probability is blurred over a cell and must not stain walls.
     map(true);
     for_each_agent(&Scene::preferred);
-    for_each_agent(&Scene::plan);
-    for_each_agent(&Scene::track);
+    for_each_agent(&Scene::restricted);
+    plans();
+    tracks();
     find();
+    for (const std::size_t i : standing_at_the_end(picture_)) {
+      draw_stand(pen_, on_sheet(picture_.agents[i].track.back()), agent_tint(picture_.agents, i));
+    }
     for_each_agent(&Scene::start);
     if (picture_.object) {
       draw_star(pen_, on_sheet(*picture_.object), 17.0);
@@ -88,7 +93,7 @@ class Scene {
 
   void probability() {
     const double full = full_heat_density(picture_.mass, picture_.cell_m) * picture_.cell_m * picture_.cell_m;
-    if (full <= 0) {
+    if (full <= 0 || picture_.alike) {
       return;
     }
     const auto columns = static_cast<std::size_t>(picture_.columns);
@@ -98,22 +103,65 @@ class Scene {
     pen_.image(sprite, on_sheet({0, 0}), picture_.cell_m * layout_.px_per_m, true);
   }
 
+  void out_of_sight() {
+    std::vector<std::vector<Point>> stretches;
+    const auto at = [&](int column, int row) {
+      return picture_.out_of_sight[static_cast<std::size_t>(row) * static_cast<std::size_t>(picture_.columns) +
+                                   static_cast<std::size_t>(column)];
+    };
+    for (int row = 0; row < picture_.rows && !picture_.out_of_sight.empty(); ++row) {
+      for (int column = 0; column < picture_.columns; ++column) {
+        const int first = column;
+        while (column < picture_.columns && at(column, row)) {
+          ++column;
+        }
+        if (column > first) {
+          const double low = row * picture_.cell_m;
+          const double high = low + picture_.cell_m;
+          stretches.push_back(on_sheet(Polygon{{first * picture_.cell_m, low},
+                                               {column * picture_.cell_m, low},
+                                               {column * picture_.cell_m, high},
+                                               {first * picture_.cell_m, high}}));
+        }
+      }
+    }
+    if (!stretches.empty()) {
+      draw_out_of_sight(pen_, stretches);
+    }
+  }
+
   void preferred(const PicturedAgent& agent, Tint tint) {
     for (const Polygon& area : agent.preferred) {
-      pen_.area(on_sheet(area), faded(tint, 0.045));
       draw_area_outline(pen_, on_sheet(area), tint);
     }
   }
 
-  void plan(const PicturedAgent& agent, Tint tint) {
-    if (agent.plan.size() > 1) {
-      draw_plan(pen_, on_sheet(agent.plan), tint, 110.0);
+  void restricted(const PicturedAgent& agent, Tint tint) {
+    for (const Polygon& area : agent.restricted) {
+      draw_restricted(pen_, on_sheet(area), tint);
     }
   }
 
-  void track(const PicturedAgent& agent, Tint tint) {
-    if (agent.track.size() > 1) {
-      draw_track(pen_, beside_line(on_sheet(agent.track), -6.0, 3.0), tint);
+  [[nodiscard]] static double aside_px(std::size_t agent) { return 3.5 * static_cast<double>(agent); }
+
+  /// Side by side where agents share a way.
+  void plans() {
+    std::vector<std::vector<Point>> lines;
+    for (std::size_t i = 0; i < picture_.agents.size(); ++i) {
+      const std::vector<Point> line = on_sheet(picture_.agents[i].plan);
+      lines.push_back(beside_line(line, aside_px(i), 0.0));
+      draw_plan_ground(pen_, lines.back());
+    }
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      draw_plan(pen_, lines[i], agent_tint(picture_.agents, i), 110.0);
+    }
+  }
+
+  /// Each to the left of its plan.
+  void tracks() {
+    for (std::size_t i = 0; i < picture_.agents.size(); ++i) {
+      const std::vector<Point> line = on_sheet(picture_.agents[i].track);
+      draw_track(pen_, beside_line(line, aside_px(i) - 6.0, 3.0), agent_tint(picture_.agents, i));
     }
   }
 
@@ -129,8 +177,7 @@ class Scene {
     if (picture_.object) {
       pen_.line(std::array{from, on_sheet(*picture_.object)}, {faded(kText, 0.8), 1.6, 2, 4});
     }
-    pen_.disc(from, 6.0, kWhite);
-    pen_.ring(from, 6.0, {tint, 3.0});
+    draw_stand(pen_, from, tint);
   }
 
   Pen& pen_;
@@ -173,6 +220,12 @@ void draw_symbol(Pen& pen, const LegendRow& row, Point at, double width) {
     case Symbol::kPreferred:
       draw_area_outline(pen, rectangle({at.x_m + 4, at.y_m - 9, width - 8, 18}), row.tint);
       break;
+    case Symbol::kRestricted:
+      draw_restricted(pen, rectangle({at.x_m + 4, at.y_m - 9, width - 8, 18}), row.tint);
+      break;
+    case Symbol::kEnd:
+      draw_stand(pen, middle, row.tint);
+      break;
     case Symbol::kObject:
       draw_star(pen, middle, 12.0);
       break;
@@ -190,7 +243,14 @@ void draw_symbol(Pen& pen, const LegendRow& row, Point at, double width) {
                           Point{at.x_m + width, at.y_m + 4}, Point{at.x_m + width, at.y_m - 6}},
                {row.tint, 2.0, 0, 0, false});
       break;
+    case Symbol::kUnseen: {
+      const std::vector<Point> swatch = rectangle({at.x_m + 0.5, at.y_m - 9.5, width, 19});
+      draw_out_of_sight(pen, std::array{swatch});
+      pen.outline(swatch, {faded(kQuiet, 0.6), 1.0});
+      break;
+    }
     case Symbol::kHeat:
+    case Symbol::kWords:
       break;
   }
 }
@@ -222,9 +282,12 @@ void draw_legend(Pen& pen, const LegendBlock& block, double scale_px) {
       draw_heat_bar(pen, at, std::min(width - 10.0, 260.0), row.text);
       continue;
     }
-    const double symbol = row.symbol == Symbol::kClass   ? 26.0
-                          : row.symbol == Symbol::kScale ? scale_px
-                                                         : PictureLayout::kSymbolWidth;
+    if (row.symbol == Symbol::kWords) {
+      pen.text(row.text, {at.x_m, at.y_m + 6}, {kText, 17, false, 0.0, width});
+      continue;
+    }
+    const bool swatch = row.symbol == Symbol::kClass || row.symbol == Symbol::kUnseen;
+    const double symbol = swatch ? 26.0 : row.symbol == Symbol::kScale ? scale_px : PictureLayout::kSymbolWidth;
     draw_symbol(pen, row, at, symbol);
     pen.text(row.text, {at.x_m + symbol + 12, at.y_m + 6}, {kText, 17, false, 0.0, width - symbol - 18});
   }
@@ -236,6 +299,7 @@ Result<std::string> picture_png(const SearchPicture& picture) {
   IVO_CONTRACT(picture.map != nullptr);
   IVO_CONTRACT(picture.mass.empty() || picture.mass.size() == static_cast<std::size_t>(picture.columns) *
                                                                   static_cast<std::size_t>(picture.rows));
+  IVO_CONTRACT(picture.out_of_sight.empty() || picture.out_of_sight.size() == picture.mass.size());
   IVO_CONTRACT(!picture.find || picture.find->agent < picture.agents.size());
   const PictureLayout layout = lay_out(picture);
   Pen pen(layout.width_px, layout.height_px, kWhite);

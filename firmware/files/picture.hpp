@@ -22,6 +22,7 @@ struct PicturedAgent {
   std::vector<Point> plan;   ///< waypoints, from the start; empty: none
   std::vector<Point> track;  ///< driven or walked, as often sampled as one likes; empty: none
   std::vector<Polygon> preferred;
+  std::vector<Polygon> restricted;
 };
 
 struct PicturedFind {
@@ -37,6 +38,8 @@ struct SearchPicture {
   int columns = 0;
   int rows = 0;
   double cell_m = 0.0;
+  bool alike = false;              ///< the prior is uniform: said in words, not shown as heat
+  std::vector<bool> out_of_sight;  ///< by cell, as mass: it may be there and nobody can look; empty: none
   std::vector<PicturedAgent> agents;
   std::optional<Point> object;
   std::optional<PicturedFind> find;

@@ -41,8 +41,16 @@ LegendBlock what(const SearchPicture& picture, double scale_m) {
   if (any([](const PicturedAgent& a) { return !a.track.empty(); })) {
     block.rows.push_back({Symbol::kTrack, kInk, "way gone"});
   }
+  if (const std::vector<std::size_t> left = standing_at_the_end(picture); !left.empty()) {
+    const bool one = left.size() == 1;
+    block.rows.push_back({Symbol::kEnd, one ? agent_tint(picture.agents, left[0]) : kInk,
+                          one ? picture.agents[left[0]].name + " at the end" : "at the end"});
+  }
   if (any([](const PicturedAgent& a) { return !a.preferred.empty(); })) {
     block.rows.push_back({Symbol::kPreferred, kInk, "preferred area"});
+  }
+  if (any([](const PicturedAgent& a) { return !a.restricted.empty(); })) {
+    block.rows.push_back({Symbol::kRestricted, kInk, "restricted area"});
   }
   if (picture.object) {
     block.rows.push_back({Symbol::kObject, kInk, "object"});
@@ -59,10 +67,16 @@ LegendBlock what(const SearchPicture& picture, double scale_m) {
 LegendBlock likely(const SearchPicture& picture) {
   LegendBlock block{"Where it probably is", {}, 1, {}};
   const double density = full_heat_density(picture.mass, picture.cell_m);
-  if (density > 0) {
+  if (picture.alike) {
+    block.rows.push_back({Symbol::kWords, kInk, "everywhere alike"});
+  } else if (density > 0) {
     char text[48];
-    std::snprintf(text, sizeof text, "%.2g %% a square metre", 100 * density);
+    std::snprintf(text, sizeof text, "\u2265 %.2g %% a square metre", 100 * density);
     block.rows.push_back({Symbol::kHeat, kInk, text});
+    block.rows.push_back({Symbol::kWords, kInk, ""});  // the bar's numbers stand there
+  }
+  if (std::find(picture.out_of_sight.begin(), picture.out_of_sight.end(), true) != picture.out_of_sight.end()) {
+    block.rows.push_back({Symbol::kUnseen, kInk, "out of sight"});
   }
   return block;
 }
@@ -84,9 +98,7 @@ LegendBlock ground(const SearchPicture& picture) {
 
 double height_of(const LegendBlock& block) {
   const double lines = std::ceil(static_cast<double>(block.rows.size()) / block.columns);
-  // The probability bar has its numbers below it.
-  const double below = !block.rows.empty() && block.rows[0].symbol == Symbol::kHeat ? PictureLayout::kRowHeight : 0.0;
-  return PictureLayout::kHeadingHeight + lines * PictureLayout::kRowHeight + below;
+  return PictureLayout::kHeadingHeight + lines * PictureLayout::kRowHeight;
 }
 
 std::vector<LegendBlock> legend_of(const SearchPicture& picture, double scale_m) {

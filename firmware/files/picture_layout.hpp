@@ -18,7 +18,21 @@ struct Box {
   double height = 0.0;
 };
 
-enum class Symbol : std::uint8_t { kAgent, kPlan, kTrack, kPreferred, kObject, kSight, kClass, kHeat, kScale };
+enum class Symbol : std::uint8_t {
+  kAgent,
+  kPlan,
+  kTrack,
+  kEnd,
+  kPreferred,
+  kRestricted,
+  kObject,
+  kSight,
+  kClass,
+  kHeat,
+  kUnseen,
+  kScale,
+  kWords
+};
 
 struct LegendRow {
   Symbol symbol;

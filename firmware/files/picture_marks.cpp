@@ -1,5 +1,6 @@
 #include "firmware/files/picture_marks.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -36,8 +37,9 @@ std::vector<Point> rectangle(const Box& b) {
   return {{b.x, b.y}, {b.x + b.width, b.y}, {b.x + b.width, b.y + b.height}, {b.x, b.y + b.height}};
 }
 
+void draw_plan_ground(Pen& pen, const std::vector<Point>& line) { pen.line(line, {faded(kWhite, 0.75), 7.0}); }
+
 void draw_plan(Pen& pen, const std::vector<Point>& line, Tint tint, double arrow_spacing) {
-  pen.line(line, {faded(kWhite, 0.75), 7.0});
   pen.line(line, {tint, 3.4});
   for (const Mark& mark : arrows_along(line, arrow_spacing, 12.0)) {
     const std::vector<Point> corners = arrow(mark, 10.5);
@@ -52,6 +54,20 @@ void draw_track(Pen& pen, const std::vector<Point>& line, Tint tint) {
 
 void draw_area_outline(Pen& pen, const std::vector<Point>& corners, Tint tint) {
   pen.outline(corners, {faded(tint, 0.75), 2.6, 2, 6});
+}
+
+void draw_restricted(Pen& pen, const std::vector<Point>& corners, Tint tint) {
+  pen.hatch(std::array{corners}, {faded(tint, 0.5), 1.4, 0, 0, false}, 13.0);
+  pen.outline(corners, {faded(tint, 0.85), 2.2});
+}
+
+void draw_out_of_sight(Pen& pen, std::span<const std::vector<Point>> areas) {
+  pen.hatch(areas, {faded(kBlack, 0.38), 1.0, 0, 0, false}, 6.5);
+}
+
+void draw_stand(Pen& pen, Point centre, Tint tint) {
+  pen.disc(centre, 6.0, kWhite);
+  pen.ring(centre, 6.0, {tint, 3.0});
 }
 
 void draw_sight(Pen& pen, Point centre, double radius, Tint tint) {

@@ -106,6 +106,36 @@ void Pen::area(std::span<const Point> corners, Tint tint) {
   cairo_fill(sheet_->cr());
 }
 
+void Pen::hatch(std::span<const std::vector<Point>> areas, const Stroke& stroke, double spacing) {
+  cairo_t* const cr = sheet_->cr();
+  cairo_save(cr);
+  cairo_new_path(cr);
+  for (const std::vector<Point>& corners : areas) {
+    cairo_new_sub_path(cr);
+    for (const Point p : corners) {
+      cairo_line_to(cr, p.x_m, p.y_m);
+    }
+    cairo_close_path(cr);
+  }
+  // With soft edges, seams between touching areas would show.
+  cairo_set_antialias(cr, CAIRO_ANTIALIAS_NONE);
+  cairo_clip(cr);
+  cairo_set_antialias(cr, CAIRO_ANTIALIAS_DEFAULT);
+  double left = 0.0;
+  double top = 0.0;
+  double right = 0.0;
+  double bottom = 0.0;
+  cairo_clip_extents(cr, &left, &top, &right, &bottom);
+  cairo_new_path(cr);
+  // Lines x + y = a multiple of the spacing, whatever the areas: neighbours' lines meet.
+  for (double sum = std::ceil((left + top) / spacing) * spacing; sum < right + bottom; sum += spacing) {
+    cairo_move_to(cr, sum - top, top);
+    cairo_line_to(cr, sum - bottom, bottom);
+  }
+  draw(cr, stroke);
+  cairo_restore(cr);
+}
+
 void Pen::ring(Point centre, double radius, const Stroke& stroke) {
   cairo_new_path(sheet_->cr());
   cairo_arc(sheet_->cr(), centre.x_m, centre.y_m, radius, 0, kTurn);

@@ -56,6 +56,8 @@ class Pen {
   void line(std::span<const Point> points, const Stroke& stroke);
   void outline(std::span<const Point> corners, const Stroke& stroke);
   void area(std::span<const Point> corners, Tint tint);
+  /// Slanted lines, `spacing` apart, within the areas; areas that touch are hatched as one.
+  void hatch(std::span<const std::vector<Point>> areas, const Stroke& stroke, double spacing);
   void ring(Point centre, double radius, const Stroke& stroke);
   void disc(Point centre, double radius, Tint tint);
 

@@ -28,14 +28,16 @@ struct Tint {
 /// The robot red, the first person green, others in colours of their own.
 [[nodiscard]] Tint agent_tint(std::span<const PicturedAgent> agents, std::size_t agent);
 
-/// The built-in colour of a class, lightened so that lines stand out on it.
+/// The built-in colours of the classes, lightened so that lines stand out on them; stairs in one that is not the
+/// heat's.
 [[nodiscard]] std::array<Tint, kClasses> calm_palette();
 
-/// Yellow to deep orange, from clear to nearly opaque, for a level of 0 to 1.
+/// Lilac to deep violet, a hue that no class and no agent has, from clear to nearly opaque, for a level of 0 to 1.
 [[nodiscard]] Tint heat(double level);
 
-/// The density, mass a square metre, that heat(1) shows: the largest, but at least thrice the mean, so that a uniform
-/// map looks uniform and faint. 0 without mass.
+/// The density, mass a square metre, that heat(1) shows: below it lies 98 % of the mass, so that a single large cell
+/// does not hide the rest; but at least thrice the mean, so that an even prior looks even and faint. 0 without mass.
+/// Cost: sorts the cells.
 [[nodiscard]] double full_heat_density(std::span<const double> mass, double cell_m);
 
 /// 1, 2 or 5 times a power of ten, the largest not above `most`.
@@ -50,7 +52,11 @@ struct Mark {
 /// Lengths in the line's own unit.
 [[nodiscard]] std::vector<Mark> arrows_along(std::span<const Point> line, double spacing, double clear);
 
-/// The line moved to the right of its direction by `offset`, thinned to points at least `step` apart.
+/// The agents other than the finder whose tracks end somewhere.
+[[nodiscard]] std::vector<std::size_t> standing_at_the_end(const SearchPicture& picture);
+
+/// The line moved to the right of its direction by `offset`, thinned to points at least `step` apart. Its segments keep
+/// their directions; at a sharp turn it goes round the corner.
 [[nodiscard]] std::vector<Point> beside_line(std::span<const Point> line, double offset, double step);
 
 }  // namespace ivo::firmware

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,7 @@ namespace ivo::firmware {
 struct ScoreDocument {
   double expected_time_s = 0.0;
   double expected_time_continuous_s = 0.0;
-  double expected_sub_prior_time_s = 0.0;
+  std::optional<double> expected_sub_prior_time_s;  ///< none without sub-priors
   double unseen_mass = 1.0;
   double horizon_s = 0.0;
   bool complete = false;
@@ -33,7 +34,7 @@ struct PlannedAgent {
 
 struct PlanDocument {
   std::string mission;
-  std::string map_path;  ///< as given
+  std::string map;  ///< name of the map's file
   std::uint64_t seed = 0;
   std::string profile;  ///< limits::Planner::kName
   double cell_m = 0.0;

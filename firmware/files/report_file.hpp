@@ -14,13 +14,18 @@ namespace ivo::firmware {
 
 enum class RunEnd : std::uint8_t { kFound, kPathsEnded, kStopped, kFault, kNoConsent };
 
+/// Driven or walked.
+struct ReportedTrack {
+  double distance_m = 0.0;
+  double mean_speed_mps = 0.0;
+  Point final_position;
+};
+
 struct ReportedAgent {
   std::string name;
   AgentKind kind = AgentKind::kRobot;
   double planned_length_m = 0.0;
-  double distance_m = 0.0;  ///< driven or walked
-  double mean_speed_mps = 0.0;
-  Point final_position;
+  std::optional<ReportedTrack> driven;  ///< none where nobody knows
 };
 
 struct ReportDocument {

@@ -224,14 +224,13 @@ void ControlLoop::think() noexcept {
 
 void ControlLoop::publish() noexcept {
   const bool ended = mode_ == Mode::kDone || mode_ == Mode::kFault;
-  const bool resting = wheels_.state == drivers::GroupState::kReady || wheels_.state == drivers::GroupState::kBooting ||
-                       (wheels_.state == drivers::GroupState::kFault && (wheels_.standstill || !search_started_));
-  finished_ = ended && (resting || now_ - ended_ > kGiveUp);
+  finished_ = ended && (wheels_.off || now_ - ended_ > kGiveUp);
 
   ++counters_.cycles;
   counters_.bus = bus_.counters();
   counters_.bus_state = bus_.state();
   counters_.refused_frames = bus_.refused();
+  counters_.malformed_frames = drives_.malformed();
   counters_.refused_commands = 0;
   for (int reason = 1; reason < kRefusals; ++reason) {
     counters_.refused_commands += gate_.refused(static_cast<Refusal>(reason));
@@ -242,6 +241,7 @@ void ControlLoop::publish() noexcept {
   status.mode = mode_;
   status.plan_ready = plan_ready_;
   status.finished = finished_;
+  status.power_off = wheels_.off;
   status.planning = planner_.progress();
   status.robot = odometry_.pose();
   for (int agent = 0; agent < search_.agents(); ++agent) {

@@ -21,6 +21,7 @@ struct LoopCounters {
   std::uint64_t cycles = 0;
   std::uint64_t skipped = 0;           ///< periods without a cycle
   std::uint64_t refused_commands = 0;  ///< by the command gate
+  std::uint64_t malformed_frames = 0;  ///< of drives, with a wrong length
   std::uint64_t refused_frames = 0;    ///< by the guarded bus
   hal::BusCounters bus;
   hal::BusState bus_state = hal::BusState::kActive;
@@ -30,7 +31,8 @@ struct LoopStatus {
   Instant at{};
   Mode mode = Mode::kPlanning;
   bool plan_ready = false;
-  bool finished = false;  ///< drives off or given up: no cycle is needed any more
+  bool power_off = false;  ///< the drives have said that they are off
+  bool finished = false;   ///< drives off or given up: no cycle is needed any more
   planner::Progress planning;
   Pose robot;
   std::array<AgentTrack, limits::kAgents> tracks{};

@@ -30,6 +30,7 @@ constexpr std::uint8_t kSpecifierMask = 0xE0;
 constexpr std::uint8_t kDownload = 0x20;
 constexpr std::uint8_t kBlockDownload = 0xC0;
 constexpr std::uint8_t kExpedited = 0x02;
+constexpr std::uint8_t kWriteTwoBytes = 0x2B;  // expedited, size given
 
 constexpr std::uint16_t kControlword = 0x6040;     // CiA 402-2
 constexpr std::uint16_t kTargetVelocity = 0x60FF;  // CiA 402-2
@@ -70,9 +71,10 @@ FrameRefusal judge_sdo(const hal::CanFrame& frame) noexcept {
   if (specifier != kDownload && specifier != kBlockDownload) {
     return FrameRefusal::kNone;
   }
-  const bool writes_zero = specifier == kDownload && (d[0] & kExpedited) != 0 &&
-                           std::all_of(d.begin() + 4, d.end(), [](std::uint8_t byte) { return byte == 0; });
-  const bool moves = index == kControlword || (index == kTargetVelocity && !writes_zero);
+  const bool zero = std::all_of(d.begin() + 4, d.end(), [](std::uint8_t byte) { return byte == 0; });
+  const bool disables_voltage = d[0] == kWriteTwoBytes && d[3] == 0 && zero;
+  const bool writes_zero = specifier == kDownload && (d[0] & kExpedited) != 0 && zero;
+  const bool moves = (index == kControlword && !disables_voltage) || (index == kTargetVelocity && !writes_zero);
   return moves ? FrameRefusal::kMotionBySdo : FrameRefusal::kNone;
 }
 

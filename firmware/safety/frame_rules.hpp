@@ -18,7 +18,7 @@ enum class FrameRefusal : std::uint8_t {
   kNotListed,           ///< no rule allows this COB-ID
   kWrongSize,           ///< not exactly the size that its rule states
   kNmtCommand,          ///< not a known NMT command, or to a node that is not ours
-  kMotionBySdo,         ///< an SDO that writes a controlword, or a target velocity other than 0
+  kMotionBySdo,         ///< an SDO that writes a controlword or a target velocity other than 0
   kTargetTooHigh,       ///< beyond the wheel's largest speed
   kMotionNotPermitted,  ///< enables operation or carries a target, without a permit
 };
@@ -28,6 +28,7 @@ inline constexpr int kFrameRefusals = 7;
 
 /// The allow-list (CiA 301, predefined connection set): NMT 000h, 2 bytes, to our drives or to all; SYNC 080h, 0 bytes;
 /// our heartbeat 700h + master, 1 byte; SDO request 600h + drive, 8 bytes; RPDO1 200h + drive, 6 bytes {6040h, 60FFh}.
+/// By SDO the controlword takes one expedited write only, of two bytes to 6040h:0 with value 0: disable voltage.
 class FrameRules {
  public:
   /// Node-ids outside 1 to 127 are on no list.

@@ -23,6 +23,9 @@ std::string read_speed(const std::string& text, RunOptions& options) {
              : "\"" + text + "\"; expected max, or 0.01 to 1000 (times real time)";
 }
 
+// An unset variable of a shell is not the default.
+std::string not_empty(const std::string& value) { return value.empty() ? "is empty; expected a name" : std::string(); }
+
 }  // namespace
 
 int command_line(int argc, const char* const* argv) {
@@ -47,10 +50,12 @@ int command_line(int argc, const char* const* argv) {
         }
       },
       "Times real time, or max for a manual clock (virtual bus only; default 1)");
-  run_command->add_option("--out", run_options.out,
-                          "Folder for plan, report, events and picture (default out/MISSION)");
-  run_command->add_option("--can", run_options.can,
-                          "CAN interface, as can0 or vcan0 (default: drives simulated in this process)");
+  run_command->add_option("--out", run_options.out, "Folder for plan, report, events and picture (default out/MISSION)")
+      ->check(not_empty);
+  run_command
+      ->add_option("--can", run_options.can,
+                   "CAN interface, as can0 or vcan0 (default: drives simulated in this process)")
+      ->check(not_empty);
   run_command->add_option("--clock", clock, "real, or sync: time moves when the drives have answered (with --can)")
       ->check(CLI::IsMember({"real", "sync"}));
 

@@ -190,6 +190,9 @@ std::optional<Error> off_the_map(const MissionInputs& inputs) {
   const Mission& mission = inputs.file.mission;
   const std::string expected = "; expected a place on the map, 0 to " + shortest(map.width_m()) + ", 0 to " +
                                shortest(map.height_m()) + " (metres)";
+  if (mission.planner.cell_m > std::min(map.width_m(), map.height_m())) {
+    return inputs.file.lines.at("planner.cell_m", "a cell is larger than the map; expected a part of a metre");
+  }
   for (std::size_t i = 0; i < inputs.gaussians.size(); ++i) {
     if (const Point mean = inputs.gaussians[i].mean; !map.contains(mean)) {
       return inputs.file.lines.at("prior.gaussians[" + std::to_string(i) + "].mean_m",

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdio>
@@ -53,7 +54,11 @@ void stop_on_signals(ControlLoop& loop) {
 
 int refuse(const Error& error) {
   (void)std::fflush(stdout);
-  (void)std::fprintf(stderr, "ivo: %s\n", error.message.c_str());
+  // A path may hold anything; the message stays one line.
+  std::string line = error.message;
+  std::replace_if(
+      line.begin(), line.end(), [](unsigned char c) { return c < 0x20; }, ' ');
+  (void)std::fprintf(stderr, "ivo: %s\n", line.c_str());
   return exit_status::kWrongInput;
 }
 
@@ -103,7 +108,7 @@ class Run {
     if (world_.own_time()) {
       for (int cycle = 0; one_cycle(); ++cycle) {
         if (cycle % kObserveEveryCycles == 0) {
-          observe(-1);
+          observe(0);
         }
       }
     } else {
@@ -132,7 +137,7 @@ class Run {
     const RunOutcome outcome = outcome_of(view_, status, world_.stalled());
     const planner::Plan* plan = status.plan_ready ? &loop_.plan() : nullptr;
     if (plan != nullptr) {
-      show_plan_once();
+      show_plan_once(status);
     }
     question_.close();
     terminal_.show_result(outcome, status, plan, world_.lapses());
@@ -174,7 +179,7 @@ class Run {
     return true;
   }
 
-  /// `wait_ms`: how long this may take while time goes on without us; -1 when it does not.
+  /// `wait_ms`: how long to sleep while time goes on without us.
   void observe(int wait_ms) {
     log_.drain(loop_.events());
     const LoopStatus& status = loop_.status();
@@ -184,12 +189,12 @@ class Run {
         terminal_.show_planning(status.planning);
         break;
       case Mode::kStarting:
-        show_plan_once();
+        show_plan_once(status);
         terminal_.show_starting(status);
         break;
       case Mode::kAwaitingConsent:
-        show_plan_once();
-        waited = seek_consent(wait_ms);
+        show_plan_once(status);
+        waited = seek_consent();
         break;
       case Mode::kSearching:
       case Mode::kStopping:
@@ -206,14 +211,17 @@ class Run {
     }
   }
 
-  void show_plan_once() {
+  void show_plan_once(const LoopStatus& status) {
     if (plan_shown_) {
       return;
     }
     plan_shown_ = true;
     terminal_.show_plan(loop_.plan());
     write("plan.json", plan_json(plan_document(view_, loop_.plan())));
-    write_picture(loop_.plan(), loop_.status(), {RunEnd::kNoConsent, "the plans, before anybody consented"});
+    write_picture(loop_.plan(), status, {RunEnd::kNoConsent, "the plans, before anybody consented"});
+    if (write_failed_) {  // nobody agrees to what cannot be kept
+      loop_.request_stop();
+    }
   }
 
   void write_picture(const planner::Plan& plan, const LoopStatus& status, const RunOutcome& outcome) {
@@ -221,8 +229,9 @@ class Run {
     picture ? write("search.png", picture.value()) : note(picture.error());
   }
 
-  bool seek_consent(int wait_ms) {
-    if (answered_) {
+  /// True when it waited for an answer.
+  bool seek_consent() {
+    if (answered_ || write_failed_) {
       return false;
     }
     if (options_.yes) {
@@ -236,7 +245,7 @@ class Run {
     if (!question_.asked()) {
       question_.ask();
     }
-    const Answer answer = question_.poll(wait_ms);
+    const Answer answer = question_.poll(kObserveEveryMs);
     if (answer != Answer::kNone) {
       answered_ = loop_.command(answer == Answer::kYes ? OperatorCommand::kConsent : OperatorCommand::kNoConsent);
     }

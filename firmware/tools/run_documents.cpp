@@ -1,7 +1,11 @@
 #include "firmware/tools/run_documents.hpp"
 
 #include <cstdio>
+#include <filesystem>
+#include <numeric>
+#include <span>
 #include <utility>
+#include <variant>
 
 #include "drivers/drive_fault_text.hpp"
 
@@ -14,10 +18,10 @@ std::string fixed(double value, int decimals) {
   return text;
 }
 
-ScoreDocument score_document(const planner::PlanScore& score) {
+ScoreDocument score_document(const planner::PlanScore& score, bool has_sub_priors) {
   return {.expected_time_s = score.expected_time_s,
           .expected_time_continuous_s = score.expected_time_continuous_s,
-          .expected_sub_prior_time_s = score.expected_sub_prior_time_s,
+          .expected_sub_prior_time_s = has_sub_priors ? std::optional(score.expected_sub_prior_time_s) : std::nullopt,
           .unseen_mass = score.unseen_mass,
           .horizon_s = score.horizon_s,
           .complete = score.complete};
@@ -43,19 +47,6 @@ std::string score_text(const RunView& run, const planner::PlanScore& score) {
   return score.complete ? text : text + ", incomplete";
 }
 
-double mean_speed_mps(const AgentTrack& track) {
-  return track.under_way > Duration::zero() ? track.moved_m / seconds(track.under_way) : 0.0;
-}
-
-std::string score_text(const RunView& run, const planner::PlanScore& score) {
-  std::string text = "expected time " + fixed(score.expected_time_s, 1) + " s";
-  if (run.planner.belief().has_sub_priors) {
-    text += ", keeping to the preferred areas " + fixed(score.expected_sub_prior_time_s, 1) + " s";
-  }
-  text += "; unseen " + fixed(100 * score.unseen_mass, 1) + " %";
-  return score.complete ? text : text + ", incomplete";
-}
-
 RunOutcome outcome_of(const RunView& run, const LoopStatus& status, bool stalled) {
   if (stalled) {
     return {RunEnd::kFault, "the drives no longer answer; expected ivo-drives --clock sync on the same interface"};
@@ -69,6 +60,11 @@ RunOutcome outcome_of(const RunView& run, const LoopStatus& status, bool stalled
     }
     return {RunEnd::kFault, "the drives lost power or did not come to rest"};
   }
+  if (!status.power_off) {
+    return {RunEnd::kFault, status.drive_fault.reason != drivers::DriveFaultReason::kNone
+                                ? drivers::describe(status.drive_fault)
+                                : "the drives did not confirm that they are off"};
+  }
   if (status.stop_cause == StopCause::kNoConsent) {
     return {RunEnd::kNoConsent, "nobody consented to the plans"};
   }
@@ -79,13 +75,13 @@ RunOutcome outcome_of(const RunView& run, const LoopStatus& status, bool stalled
   if (status.stop_cause == StopCause::kAsked) {
     return {RunEnd::kStopped, "stop was asked for"};
   }
-  return {RunEnd::kPathsEnded, "all paths ended and nobody found the object"};
+  return {RunEnd::kPathsEnded, "the paths ended and nobody found the object"};
 }
 
 PlanDocument plan_document(const RunView& run, const planner::Plan& plan) {
   const Mission& mission = run.inputs.file.mission;
   PlanDocument document{.mission = mission.name,
-                        .map_path = run.inputs.map.path,
+                        .map = std::filesystem::path(run.inputs.map.path).filename().string(),
                         .seed = mission.seed,
                         .profile = limits::Planner::kName,
                         .cell_m = mission.planner.cell_m,
@@ -93,7 +89,7 @@ PlanDocument plan_document(const RunView& run, const planner::Plan& plan) {
                         .nodes = run.planner.graph().nodes(),
                         .generations_done = run.planner.progress().generation,
                         .unobservable_share = run.planner.belief().unobservable_share,
-                        .score = score_document(plan.score),
+                        .score = score_document(plan.score, run.planner.belief().has_sub_priors),
                         .agents = {}};
   for (std::size_t m = 0; m < mission.agents.size(); ++m) {
     const AgentSpec& spec = mission.agents[m];
@@ -122,23 +118,49 @@ ReportDocument report_document(const RunView& run, const planner::Plan* plan, co
   }
   report.object = run.object.place();
   if (plan != nullptr) {
-    report.score = score_document(plan->score);
+    report.score = score_document(plan->score, run.planner.belief().has_sub_priors);
   }
   report.real_search_time_s = status.search_started ? seconds(status.search_time) : 0.0;
   for (std::size_t m = 0; m < mission.agents.size(); ++m) {
-    const AgentTrack& track = status.tracks[m];
-    report.agents.push_back({.name = mission.agents[m].name,
-                             .kind = mission.agents[m].kind,
-                             .planned_length_m = plan != nullptr ? plan->paths[m].length_m : 0.0,
-                             .distance_m = track.moved_m,
-                             .mean_speed_mps = mean_speed_mps(track),
-                             .final_position = track.position});
+    const AgentSpec& spec = mission.agents[m];
+    ReportedAgent agent{.name = spec.name, .kind = spec.kind, .planned_length_m = 0.0, .driven = {}};
+    agent.planned_length_m = plan != nullptr ? plan->paths[m].length_m : 0.0;
+    // Nobody has reported where a reported person was.
+    if (spec.kind == AgentKind::kRobot || spec.motion == PersonMotion::kSimulated) {
+      const AgentTrack& track = status.tracks[m];
+      agent.driven = ReportedTrack{track.moved_m, mean_speed_mps(track), track.position};
+    }
+    report.agents.push_back(agent);
   }
   if (status.drive_fault.reason != drivers::DriveFaultReason::kNone) {
     report.drive_fault = drivers::describe(status.drive_fault);
   }
   return report;
 }
+
+namespace {
+
+/// Cells that the prior gives a part worth showing, a tenth of the mean, and the belief none: nobody can see them.
+std::vector<bool> out_of_sight(const RunView& run) {
+  const planner::Cells& cells = run.planner.cells();
+  std::vector<double> prior(static_cast<std::size_t>(cells.count()));
+  const planner::PriorChoice choice = run.inputs.problem().prior;
+  if (const auto* image = std::get_if<planner::GreyView>(&choice)) {
+    planner::fill_from_image(cells, *image, prior);
+  } else if (const auto* gaussians = std::get_if<std::span<const planner::GaussianComponent>>(&choice)) {
+    planner::fill_gaussian_mixture(cells, *gaussians, prior);
+  } else {
+    planner::fill_uniform(cells, prior);
+  }
+  const double mean = std::accumulate(prior.begin(), prior.end(), 0.0) / cells.count();
+  std::vector<bool> hidden;
+  for (std::size_t c = 0; c < prior.size(); ++c) {
+    hidden.push_back(prior[c] > 0.1 * mean && run.planner.belief().mass[c] <= 0.0);
+  }
+  return hidden;
+}
+
+}  // namespace
 
 SearchPicture picture_of(const RunView& run, const planner::Plan& plan, const LoopStatus& status,
                          const RunOutcome& outcome, const std::vector<std::vector<Point>>& tracks) {
@@ -158,8 +180,11 @@ SearchPicture picture_of(const RunView& run, const planner::Plan& plan, const Lo
                               .start = spec.start,
                               .plan = {path.waypoints.begin(), path.waypoints.end()},
                               .track = tracks[m],
-                              .preferred = spec.preferred});
+                              .preferred = spec.preferred,
+                              .restricted = spec.restricted});
   }
+  picture.alike = std::holds_alternative<UniformPrior>(mission.prior);
+  picture.out_of_sight = out_of_sight(run);
   if (status.search_started) {
     picture.object = run.object.place();
   }

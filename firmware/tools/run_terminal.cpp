@@ -211,6 +211,7 @@ void RunTerminal::show_result(const RunOutcome& outcome, const LoopStatus& statu
   };
   add(counters.bus.send_dropped, "not sent");
   add(counters.bus.receive_dropped, "lost");
+  add(counters.malformed_frames, "malformed");
   add(counters.refused_commands, "commands refused");
   add(counters.refused_frames, "frames refused");
   add(counters.skipped, "periods skipped");

@@ -15,14 +15,14 @@ PAVEMENT = (214, 210, 202)
 BUILDING = (104, 84, 92)
 
 
-def write_png(path, rows):
-    """`rows`: colours from the top row down."""
+def write_png(path, rows, grey=False):
+    """`rows`: colours from the top row down; of grey ones the first value counts."""
 
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
-    raw = b"".join(b"\0" + b"".join(bytes(pixel) for pixel in row) for row in rows)
-    header = struct.pack(">IIBBBBB", len(rows[0]), len(rows), 8, 2, 0, 0, 0)
+    raw = b"".join(b"\0" + b"".join(bytes(pixel[:1] if grey else pixel) for pixel in row) for row in rows)
+    header = struct.pack(">IIBBBBB", len(rows[0]), len(rows), 8, 0 if grey else 2, 0, 0, 0)
     with open(path, "wb") as file:
         file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(raw)) + chunk(b"IEND", b""))
 

@@ -3,12 +3,13 @@
 
 import os
 import pty
+import resource
 import signal
 import subprocess
 import tempfile
 import unittest
 
-from mission_files import COURTYARD, IVO, MISSION, events, ivo, read_json, write_mission
+from mission_files import COURTYARD, IVO, MISSION, events, ivo, read_json, write_mission, write_png
 
 
 def contents(folder, name):
@@ -192,12 +193,53 @@ class Run(unittest.TestCase):
         for name in ("plan.json", "report.json"):
             self.assertEqual(contents(os.path.join(self.folder, "fast"), name), contents(os.path.join(self.folder, "slow"), name), name)
 
+    def run_with_room_for(self, size, *args):
+        """Runs ivo on a disk on which no file grows beyond `size` bytes."""
+
+        def limit():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
+
+        return subprocess.run([IVO, "run", *args, "--yes", "--speed", "max", "--out", self.out], capture_output=True, text=True,
+                              stdin=subprocess.DEVNULL, preexec_fn=limit, check=False)
+
     def test_events_that_cannot_be_written_are_a_failure(self):
-        os.mkdir(self.out)
-        os.symlink("/dev/full", os.path.join(self.out, "events.jsonl"))
+        # Long enough for more events than fit, on a map whose picture fits.
+        mission = MISSION.replace('object = "drawn"', 'object = "unknown"')
+        done = self.run_with_room_for(60_000, write_mission(self.folder, mission))
+        self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
+        self.assertRegex(done.stderr, "cannot be written|events were lost")
+
+    def test_nobody_searches_by_a_plan_that_could_not_be_kept(self):
+        os.makedirs(os.path.join(self.out, "plan.json", "in the way"))
         done = ivo("run", write_mission(self.folder), "--yes", "--speed", "max", "--out", self.out)
-        self.assertIn(done.returncode, (1, 2))
-        self.assertIn("events.jsonl", done.stderr)
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertIn("plan.json", done.stderr)
+        self.assertNotIn("searching", self.modes())
+
+    def test_a_prior_may_be_an_image(self):
+        rows = [[(0, 0, 0)] * 48 for _ in range(48)]
+        for row in range(24):
+            rows[row][:24] = [(200, 200, 200)] * 24  # the upper left quarter
+        write_png(os.path.join(self.folder, "prior.png"), rows, grey=True)
+        mission = MISSION.replace('"uniform"', '{ image = "prior.png", resolution_m = 0.25 }')
+        done = ivo("run", write_mission(self.folder, mission), "--yes", "--speed", "max", "--out", self.out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        x, y = read_json(self.out, "report.json")["object_m"]
+        self.assertTrue(x < 6 and y > 6, (x, y))
+
+    def test_where_a_reported_person_was_is_not_invented(self):
+        mission = MISSION.replace('kind = "person"', 'kind = "person"\nmotion = "reported"')
+        done = ivo("run", write_mission(self.folder, mission), "--yes", "--speed", "max", "--out", self.out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIsNone(read_json(self.out, "report.json")["agents"][1]["distance_m"])
+
+    def test_the_shipped_missions_run(self):
+        folder = os.path.dirname(COURTYARD)
+        for name in ("m1.toml", "m1_gaussians.toml", "m2.toml"):
+            done = ivo("run", os.path.join(folder, name), "--speed", "max", "--out", os.path.join(self.folder, name))
+            self.assertEqual(done.returncode, 3, done.stderr)
+            self.assertLess(read_json(self.folder, name, "plan.json")["score"]["unseen_mass"], 0.05)
 
     def test_an_output_folder_that_cannot_be_is_refused_before_anything_starts(self):
         blocked = os.path.join(self.folder, "file")

@@ -35,24 +35,24 @@ class Stages(unittest.TestCase):
     def test_the_last_line_sums_the_tests_of_all_stages(self):
         status, said, _ = self.run_stages(f"a|b) {self.report(7, 0, 0)} ;; c) true ;;", "a", "b", "c")
         self.assertEqual(status, 0)
-        self.assertEqual(said.splitlines()[-1], "14 passed, 0 failed")
+        self.assertEqual(said.splitlines()[-1], "14 passed, 0 failed, 0 skipped")
 
     def test_a_skipped_test_did_not_pass(self):
-        self.assertIn("5 passed, 0 failed", self.run_stages(f"a) {self.report(7, 0, 2)} ;;", "a")[1])
+        self.assertIn("5 passed, 0 failed, 2 skipped", self.run_stages(f"a) {self.report(7, 0, 2)} ;;", "a")[1])
 
     def test_a_failed_test_stops_and_counts(self):
         status, said, _ = self.run_stages(f"a) {self.report(7, 2, 0)}; false ;; b) true ;;", "a", "b")
         self.assertEqual(status, 1)
         self.assertIn("stage a failed", said)
         self.assertNotIn("[2/2]", said)
-        self.assertEqual(said.splitlines()[-1], "5 passed, 2 failed")
+        self.assertEqual(said.splitlines()[-1], "5 passed, 2 failed, 0 skipped")
 
     def test_a_stage_that_fails_without_tests_never_reads_as_success(self):
         status, said, _ = self.run_stages("a) echo the reason; false; echo never ;;", "a")
         self.assertEqual(status, 1)
         self.assertIn("the reason", said)
         self.assertNotIn("never", said)
-        self.assertEqual(said.splitlines()[-1], "0 passed, 1 failed")
+        self.assertEqual(said.splitlines()[-1], "0 passed, 1 failed, 0 skipped")
 
 
 class Refusals(unittest.TestCase):

@@ -89,6 +89,7 @@ class WrongInput(unittest.TestCase):
         mission = write_mission(self.folder)
         self.refused(["run", mission, "--clock", "sync"], ["--clock sync", "--can"])
         self.refused(["run", mission, "--can", "can77", "--speed", "max"], ["--speed", "--can"])
+        self.refused(["run", mission, "--can", ""], ["--can", "empty"])
         self.refused(["run", mission, "--speed", "fast"], ["--speed", "fast", "max"])
 
     def test_a_command_line_that_makes_no_sense_is_refused(self):

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -42,6 +43,8 @@ class SearchRig {
     loop_->cycle(now_, 0);
     drives_.update(now_);
     now_ += rates::kCycle;
+    true_position_.x_m += velocity({1, 1, 1, 1}) * seconds(rates::kCycle);
+    true_position_.y_m += velocity({-1, 1, 1, -1}) * seconds(rates::kCycle);
     return loop_->status();
   }
   void run(Duration time) {
@@ -74,6 +77,11 @@ class SearchRig {
     }
     return false;
   }
+  /// Of the base, from the simulated wheels' own velocities: mecanum kinematics (r vx is the mean, r vy the mean with
+  /// signs -, +, +, - over FL, FR, RL, RR), the heading held at 0.
+  [[nodiscard]] double speed_mps() { return std::hypot(velocity({1, 1, 1, 1}), velocity({-1, 1, 1, -1})); }
+  /// Where these velocities have taken the base.
+  [[nodiscard]] Point true_position() const { return true_position_; }
   std::vector<firmware::Event> events() {
     std::vector<firmware::Event> events;
     for (firmware::Event event; loop_->events().pop(event);) {
@@ -88,6 +96,15 @@ class SearchRig {
   [[nodiscard]] Instant now() const { return now_; }
 
  private:
+  double velocity(const std::array<int, kWheels>& signs) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < signs.size(); ++i) {
+      const DriveParameters& drive = robot_.drives[i];
+      const double units = drives_.drive(static_cast<Wheel>(i)).motion().velocity();
+      sum += signs[i] * units * drive.sign / (drive.velocity_per_radps * drive.gear_ratio);
+    }
+    return robot_.base.wheel_radius_m * sum / 4;
+  }
   // One for the program: it is large.
   static planner::Planner& planner() {
     static planner::Planner planner;
@@ -122,6 +139,7 @@ class SearchRig {
   drivers::SimDrives drives_;
   std::unique_ptr<firmware::ControlLoop> loop_;
   Instant now_{};
+  Point true_position_{1.5, 1.5};
 };
 
 }  // namespace ivo::test

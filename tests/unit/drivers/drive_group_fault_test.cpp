@@ -49,6 +49,11 @@ const FaultCase kFaults[] = {
        provoke_with(rig, emergency_frame(3, {0x4210, 0x09}));
      },
      DriveFaultReason::kEmergency, milliseconds(6)},
+    {"ShortEmergency",
+     [](Rig& rig) {
+       provoke_with(rig, {.id = 0x083, .size = 2, .data = {0, 0}});
+     },
+     DriveFaultReason::kEmergency, milliseconds(6)},
     {"FaultStatusWithoutEmergency",
      [](Rig& rig) {
        rig.drives.drive(Wheel::kRearLeft).script().feedback_lost_from = Instant{};
@@ -194,14 +199,15 @@ TEST(DriveGroup, DrivesStopByThemselvesWhenTheMasterFallsSilent) {
   EXPECT_TRUE(all_at_rest(rig));
 }
 
-TEST(DriveGroup, StopsByLostFeedbackWhenTheBusGoesAway) {
+TEST(DriveGroup, StopsWhenTheBusGoesAway) {
   Rig rig;
   ASSERT_TRUE(rig.drive_at(5.0));
   rig.bus.set_state(0, hal::BusState::kOff);
   EXPECT_TRUE(rig.run_until(GroupState::kFault));
-  EXPECT_EQ(rig.feedback.fault.reason, DriveFaultReason::kFeedbackLost);
+  EXPECT_EQ(rig.feedback.fault.reason, DriveFaultReason::kCommandsNotSent);
   rig.run(milliseconds(500));
   EXPECT_FALSE(any_enabled(rig)) << "the drives miss our heartbeat";
+  EXPECT_FALSE(rig.feedback.off) << "nobody can say so";
 }
 
 }  // namespace

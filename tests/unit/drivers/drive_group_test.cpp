@@ -39,6 +39,21 @@ TEST(DriveGroup, SendsSyncFirstThenFourCommandsEachCycle) {
   EXPECT_EQ(ids, (std::vector<std::uint16_t>{0x080, 0x201, 0x202, 0x203, 0x204, 0x181, 0x182, 0x183, 0x184}));
 }
 
+TEST(DriveGroup, SendsItsHeartbeatAfterTheCommands) {
+  Rig rig;
+  ASSERT_TRUE(rig.run_until(GroupState::kReady));
+  rig.run(milliseconds(200));
+  int heartbeats = 0;
+  for (std::size_t i = 1; i < rig.log.size(); ++i) {
+    if (rig.log[i].id == 0x77F && std::any_of(rig.log.begin(), rig.log.begin() + static_cast<std::ptrdiff_t>(i),
+                                              [](const hal::CanFrame& frame) { return frame.id == 0x080; })) {
+      EXPECT_EQ(rig.log[i - 1].id, 0x204);
+      ++heartbeats;
+    }
+  }
+  EXPECT_GE(heartbeats, 3);
+}
+
 TEST(DriveGroup, ProducesItsHeartbeatEvenBeforeOpen) {
   hal::VirtualBus bus;
   DriveGroup group(bus.port(0), test_robot());

@@ -28,11 +28,28 @@ inline Robot test_robot() {
   return robot;
 }
 
+/// Takes the first `room` frames of a send, as a transmit queue that is almost full, and drops the rest.
+class NarrowBus final : public hal::CanBus {
+ public:
+  explicit NarrowBus(hal::CanBus& inner) : inner_(inner) {}
+  std::size_t receive(std::span<hal::CanFrame> frames) noexcept override { return inner_.receive(frames); }
+  std::size_t send(std::span<const hal::CanFrame> frames) noexcept override {
+    return inner_.send(frames.first(std::min(frames.size(), room)));
+  }
+  [[nodiscard]] hal::BusState state() const noexcept override { return inner_.state(); }
+  [[nodiscard]] hal::BusCounters counters() const noexcept override { return inner_.counters(); }
+
+  std::size_t room = 1000;
+
+ private:
+  hal::CanBus& inner_;
+};
+
 class Rig {
  public:
   explicit Rig(const SimDrives::Scripts& scripts = {}, const Robot& robot_parameters = test_robot(),
                SimDrives::TimeFrom time_from = SimDrives::TimeFrom::kClock)
-      : robot(robot_parameters), drives(bus.port(1), robot, time_from, scripts), group(bus.port(0), robot) {
+      : robot(robot_parameters), drives(bus.port(1), robot, time_from, scripts), group(narrow, robot) {
     drives.open();
     group.open(clock.now());
   }
@@ -103,6 +120,7 @@ class Rig {
 
   Robot robot;
   hal::VirtualBus bus;
+  NarrowBus narrow{bus.port(0)};
   hal::ManualClock clock;
   SimDrives drives;
   DriveGroup group;

@@ -15,7 +15,7 @@ namespace {
 PlanDocument plan() {
   PlanDocument plan;
   plan.mission = "yard \"north\"";
-  plan.map_path = "config/maps/courtyard.toml";
+  plan.map = "config/maps/courtyard.toml";
   plan.seed = std::numeric_limits<std::uint64_t>::max();
   plan.profile = "onboard";
   plan.cell_m = 0.25;
@@ -42,7 +42,7 @@ TEST(PlanFile, ReadsBackWhatItWroteToTheLastBit) {
   const PlanDocument& back = read.value();
   const PlanDocument there = plan();
   EXPECT_EQ(back.mission, there.mission);
-  EXPECT_EQ(back.map_path, there.map_path);
+  EXPECT_EQ(back.map, there.map);
   EXPECT_EQ(back.seed, there.seed);
   EXPECT_EQ(back.profile, there.profile);
   EXPECT_EQ(back.cell_m, there.cell_m);
@@ -160,9 +160,9 @@ TEST(ReportFile, WritesAFindAndASearchWithoutOne) {
   report.reason = "seen by Ana";
   report.finder = "Ana";
   report.object = Point{3.5, 4};
-  report.score = ScoreDocument{81, 81.5, 0, 0.01, 200, true};
+  report.score = ScoreDocument{81, 81.5, std::nullopt, 0.01, 200, true};
   report.real_search_time_s = 43.25;
-  report.agents = {{"IVO", AgentKind::kRobot, 60, 15.5, 0.34, {1, 2}}};
+  report.agents = {{"IVO", AgentKind::kRobot, 60, ReportedTrack{15.5, 0.34, {1, 2}}}};
   const std::string found = report_json(report);
   EXPECT_EQ(found,
             "{\n"
@@ -175,7 +175,7 @@ TEST(ReportFile, WritesAFindAndASearchWithoutOne) {
             "  \"object_m\": [3.5,4.0],\n"
             "  \"real_search_time_s\": 43.25,\n"
             "  \"plan_score\": {\"expected_time_s\":81.0,\"expected_time_continuous_s\":81.5,"
-            "\"expected_sub_prior_time_s\":0.0,\"unseen_mass\":0.01,\"horizon_s\":200.0,\"complete\":true},\n"
+            "\"expected_sub_prior_time_s\":null,\"unseen_mass\":0.01,\"horizon_s\":200.0,\"complete\":true},\n"
             "  \"agents\": [\n"
             "    {\"name\":\"IVO\",\"kind\":\"robot\",\"planned_length_m\":60.0,\"distance_m\":15.5,"
             "\"mean_speed_mps\":0.34,\"final_position_m\":[1.0,2.0]}\n"

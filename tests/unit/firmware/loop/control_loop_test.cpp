@@ -65,6 +65,17 @@ TEST(ControlLoop, TheRobotDrivesItsPlanToTheEndAndPowersOff) {
   EXPECT_NE(rig.drives().drive(Wheel::kRearRight).power_state(), drivers::cia402::PowerState::kOperationEnabled);
 }
 
+TEST(ControlLoop, TheRobotIsWhereItsWheelsHaveTakenIt) {
+  SearchRig rig({});
+  ASSERT_TRUE(rig.start_search());
+  for (int i = 0; i < 10'000; ++i) {
+    rig.cycle();
+    ASSERT_NEAR(rig.true_position().x_m, rig.loop().status().robot.x_m, 0.01);
+    ASSERT_NEAR(rig.true_position().y_m, rig.loop().status().robot.y_m, 0.01);
+  }
+  EXPECT_GT(rig.true_position().y_m + rig.true_position().x_m, 3.5) << "it has not moved";
+}
+
 TEST(ControlLoop, ARobotThatSeesTheObjectEndsTheSearch) {
   SearchRig rig({.object = Point{2.0, 4.6}});
   ASSERT_TRUE(rig.start_search());
@@ -79,10 +90,15 @@ TEST(ControlLoop, AStopRampsDownWithinTheConfiguredDeceleration) {
   ASSERT_TRUE(rig.start_search());
   rig.run(5s);
   ASSERT_TRUE(rig.wheels_turn());
+  while (rig.speed_mps() < 0.45) {
+    rig.cycle();
+  }
   rig.loop().request_stop();
   ASSERT_TRUE(rig.run_until(Mode::kStopping, 4ms));
-  // 0.5 m/s at 1 m/s^2 and the drives' own ramp.
-  rig.run(700ms);
+  // From 0.5 m/s at 1 m/s^2, and the drives' own ramp: neither abrupt nor slow.
+  rig.run(400ms);
+  EXPECT_TRUE(rig.wheels_turn());
+  rig.run(300ms);
   EXPECT_FALSE(rig.wheels_turn());
   ASSERT_TRUE(rig.run_until(Mode::kDone, 1s));
   EXPECT_EQ(rig.loop().status().stop_cause, StopCause::kAsked);
@@ -147,8 +163,25 @@ TEST(ControlLoop, ADriveThatFailsToStartUpEndsTheRunBeforeAnythingMoves) {
   ASSERT_TRUE(rig.run_until(Mode::kFault, 10s));
   EXPECT_EQ(rig.loop().status().drive_fault.reason, drivers::DriveFaultReason::kUnexpectedValue);
   EXPECT_EQ(rig.loop().status().drive_fault.node_id, 2);
+  rig.run(100ms);
   EXPECT_TRUE(rig.loop().finished());
   EXPECT_FALSE(rig.wheels_turn());
+}
+
+TEST(ControlLoop, AFaultEndsTheRunOnlyWhenTheOtherDrivesAreOff) {
+  SearchRig rig({});
+  ASSERT_TRUE(rig.start_search());
+  rig.run(4s);
+  rig.drives().drive(Wheel::kRearLeft).script().fault_at = rig.now();
+  for (int i = 0; i < 5'000 && !rig.loop().finished(); ++i) {
+    rig.cycle();
+  }
+  ASSERT_TRUE(rig.loop().finished());
+  EXPECT_TRUE(rig.loop().status().power_off);
+  for (const Wheel wheel : {Wheel::kFrontLeft, Wheel::kFrontRight, Wheel::kRearRight}) {
+    EXPECT_EQ(rig.drives().drive(wheel).power_state(), drivers::cia402::PowerState::kSwitchOnDisabled);
+    EXPECT_EQ(rig.drives().drive(wheel).motion().velocity(), 0);
+  }
 }
 
 TEST(ControlLoop, ABusThatIsOffStopsTheSearch) {

@@ -218,12 +218,31 @@ TEST_F(GuardedBusTest, RefusesTargetsBeyondTheWheelsLargestSpeedEvenWithAPermit)
   }
 }
 
-TEST_F(GuardedBusTest, RefusesEveryWriteOfTheControlwordBySdo) {
+TEST_F(GuardedBusTest, RefusesEveryOtherWriteOfTheControlwordBySdo) {
   bus_.permit_motion(true);
   for (const std::uint8_t specifier :
        std::initializer_list<std::uint8_t>{0x20, 0x21, 0x22, 0x23, 0x27, 0x2B, 0x2F, 0xC0, 0xC2, 0xC6}) {
-    EXPECT_EQ(refusal_of(sdo(1, specifier, 0x6040)), FrameRefusal::kMotionBySdo) << int{specifier};
+    EXPECT_EQ(refusal_of(sdo(1, specifier, 0x6040, {6, 0, 0, 0})), FrameRefusal::kMotionBySdo) << int{specifier};
   }
+}
+
+TEST_F(GuardedBusTest, LetsTheControlwordBeWrittenBySdoAsTwoBytesOfZeroAndInNoOtherWay) {
+  for (int specifier = 0; specifier <= 0xFF; ++specifier) {
+    const bool downloads = (specifier & 0xE0) == 0x20 || (specifier & 0xE0) == 0xC0;
+    EXPECT_EQ(refusal_of(sdo(1, static_cast<std::uint8_t>(specifier), 0x6040)),
+              downloads && specifier != 0x2B ? FrameRefusal::kMotionBySdo : FrameRefusal::kNone)
+        << specifier;
+  }
+  for (std::size_t byte = 0; byte < 4; ++byte) {
+    for (int bit = 0; bit < 8; ++bit) {
+      std::array<std::uint8_t, 4> value{};
+      value[byte] = static_cast<std::uint8_t>(1 << bit);
+      EXPECT_EQ(refusal_of(sdo(1, 0x2B, 0x6040, value)), FrameRefusal::kMotionBySdo) << byte << ' ' << bit;
+    }
+  }
+  CanFrame elsewhere = sdo(1, 0x2B, 0x6040);
+  elsewhere.data[3] = 1;
+  EXPECT_EQ(refusal_of(elsewhere), FrameRefusal::kMotionBySdo);
 }
 
 TEST_F(GuardedBusTest, RefusesATargetOtherThanZeroBySdo) {
