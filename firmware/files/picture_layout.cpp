@@ -39,7 +39,7 @@ LegendBlock what(const SearchPicture& picture, double scale_m) {
     block.rows.push_back({Symbol::kPlan, kInk, "plan"});
   }
   if (any([](const PicturedAgent& a) { return !a.track.empty(); })) {
-    block.rows.push_back({Symbol::kTrack, kInk, "way gone"});
+    block.rows.push_back({Symbol::kTrack, kInk, "way gone, drawn beside it"});
   }
   if (const std::vector<std::size_t> left = standing_at_the_end(picture); !left.empty()) {
     const bool one = left.size() == 1;
