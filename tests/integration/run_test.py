@@ -122,7 +122,7 @@ class Run(unittest.TestCase):
     def test_a_stop_signal_ends_the_search_at_rest_and_is_reported(self):
         mission = MISSION.replace('object = "drawn"', 'object = "unknown"')
         process = subprocess.Popen(
-            [IVO, "run", write_mission(self.folder, mission), "--yes", "--speed", "5", "--out", self.out],
+            [IVO, "run", write_mission(self.folder, mission), "--yes", "--speed", "1", "--out", self.out],
             stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
         )
         for line in process.stdout:
@@ -153,7 +153,7 @@ class Run(unittest.TestCase):
     def test_two_runs_into_one_folder_are_refused(self):
         mission = MISSION.replace('object = "drawn"', 'object = "unknown"')
         first = subprocess.Popen(
-            [IVO, "run", write_mission(self.folder, mission), "--yes", "--speed", "5", "--out", self.out],
+            [IVO, "run", write_mission(self.folder, mission), "--yes", "--speed", "1", "--out", self.out],
             stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, text=True,
         )
         for line in first.stdout:
@@ -173,7 +173,7 @@ class Run(unittest.TestCase):
             with open(os.path.join(self.out, name), "w", encoding="utf-8") as file:
                 file.write("old")
         process = subprocess.Popen(
-            [IVO, "run", write_mission(self.folder), "--yes", "--speed", "0.01", "--out", self.out],
+            [IVO, "run", write_mission(self.folder, MISSION.replace("generations = 5", "generations = 1000000")), "--yes", "--out", self.out],
             stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, text=True,
         )
         process.stdout.readline()
