@@ -1,4 +1,4 @@
-// Every capacity of the product, once. Beyond one, input is refused by name; nothing grows.
+// The capacities of planner, map and mission, once. Beyond one, input is refused by name; nothing grows.
 #pragma once
 
 #include <cstddef>

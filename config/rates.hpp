@@ -1,4 +1,4 @@
-// Every period, budget and time-out of the product, once.
+// The periods, budgets and time-outs of robot and bus, once.
 #pragma once
 
 #include <chrono>

@@ -70,8 +70,8 @@ void ControlLoop::take_commands() noexcept {
   StopCause cause = stop_requested_.load(std::memory_order_relaxed) ? StopCause::kAsked : StopCause::kNone;
   for (OperatorCommand command{}; commands_.pop(command);) {
     consent_ = consent_ || command == OperatorCommand::kConsent;
-    if (command == OperatorCommand::kNoConsent && cause == StopCause::kNone) {
-      cause = StopCause::kNoConsent;
+    if (command != OperatorCommand::kConsent && cause == StopCause::kNone) {
+      cause = command == OperatorCommand::kNoConsent ? StopCause::kNoConsent : StopCause::kPlanNotKept;
     }
   }
   if (cause != StopCause::kNone && stop_cause_ == StopCause::kNone) {

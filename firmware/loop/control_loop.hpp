@@ -53,7 +53,7 @@ class ControlLoop {
   // To and from one other thread.
   bool command(OperatorCommand command) noexcept { return commands_.push(command); }
   [[nodiscard]] const LoopStatus& status() noexcept { return status_.read(); }
-  /// The plan; valid once a status has shown a mode beyond kPlanning.
+  /// The plan; valid once a status has shown plan_ready.
   [[nodiscard]] const planner::Plan& plan() noexcept { return shown_plan_.read(); }
   [[nodiscard]] EventRing& events() noexcept { return events_; }
 

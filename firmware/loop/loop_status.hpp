@@ -15,7 +15,7 @@
 namespace ivo::firmware {
 
 /// Why nobody goes on searching, when it was not the search that ended.
-enum class StopCause : std::uint8_t { kNone, kAsked, kNoConsent };
+enum class StopCause : std::uint8_t { kNone, kAsked, kNoConsent, kPlanNotKept };
 
 struct LoopCounters {
   std::uint64_t cycles = 0;
@@ -47,6 +47,6 @@ struct LoopStatus {
 };
 
 /// What the rest of the program may answer to the plans; stop is asked for by ControlLoop::request_stop.
-enum class OperatorCommand : std::uint8_t { kConsent, kNoConsent };
+enum class OperatorCommand : std::uint8_t { kConsent, kNoConsent, kPlanNotKept };
 
 }  // namespace ivo::firmware

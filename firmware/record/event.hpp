@@ -19,7 +19,7 @@ enum class EventKind : std::uint8_t {
   kPosition,       ///< agent; x, y: m
   kFound,          ///< agent; x, y: where the object lay
   kPathsEnded,     //
-  kDriveFault,     ///< agent: wheel; code: DriveFault's step or cause
+  kDriveFault,     ///< agent: wheel; code: DriveFaultReason
   kOverrun,        ///< code: periods skipped
 };
 

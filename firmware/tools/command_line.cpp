@@ -1,6 +1,7 @@
 #include "firmware/tools/command_line.hpp"
 
 #include <CLI/CLI.hpp>
+#include <cstdlib>
 #include <string>
 
 #include "firmware/tools/exit_status.hpp"

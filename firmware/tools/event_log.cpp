@@ -29,6 +29,19 @@ std::string field(std::string_view key, const std::string& value) { return ",\""
 std::string field(std::string_view key, double value) { return field(key, shortest(value)); }
 std::string field(std::string_view key, std::int32_t value) { return field(key, std::to_string(value)); }
 
+std::string_view name_of(StopCause cause) {
+  switch (cause) {
+    case StopCause::kNoConsent:
+      return "nobody consented";
+    case StopCause::kPlanNotKept:
+      return "the plans could not be written";
+    case StopCause::kNone:
+    case StopCause::kAsked:
+      break;
+  }
+  return "operator";
+}
+
 std::string place(const Event& event) { return field("x_m", event.x) + field("y_m", event.y); }
 
 }  // namespace
@@ -88,9 +101,7 @@ std::string EventLog::line(const Event& event) const {
     case EventKind::kConsent:
       return text("consent");
     case EventKind::kStopAsked:
-      return text("stop asked",
-                  field("cause", quoted(static_cast<StopCause>(event.code) == StopCause::kNoConsent ? "nobody consented"
-                                                                                                    : "operator")));
+      return text("stop asked", field("cause", quoted(name_of(static_cast<StopCause>(event.code)))));
     case EventKind::kSearchStarted:
       return text("search started");
     case EventKind::kPosition:

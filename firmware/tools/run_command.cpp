@@ -52,13 +52,17 @@ void stop_on_signals(ControlLoop& loop) {
   (void)sigaction(SIGPIPE, &action, nullptr);
 }
 
-int refuse(const Error& error) {
-  (void)std::fflush(stdout);
+void complain(const Error& error) {
   // A path may hold anything; the message stays one line.
   std::string line = error.message;
   std::replace_if(
       line.begin(), line.end(), [](unsigned char c) { return c < 0x20; }, ' ');
+  (void)std::fflush(stdout);
   (void)std::fprintf(stderr, "ivo: %s\n", line.c_str());
+}
+
+int refuse(const Error& error) {
+  complain(error);
   return exit_status::kWrongInput;
 }
 
@@ -220,7 +224,7 @@ class Run {
     write("plan.json", plan_json(plan_document(view_, loop_.plan())));
     write_picture(loop_.plan(), status, {RunEnd::kNoConsent, "the plans, before anybody consented"});
     if (write_failed_) {  // nobody agrees to what cannot be kept
-      loop_.request_stop();
+      (void)loop_.command(OperatorCommand::kPlanNotKept);
     }
   }
 
@@ -259,7 +263,8 @@ class Run {
 
   void note(const Error& error) {
     write_failed_ = true;
-    (void)std::fprintf(stderr, "ivo: %s\n", error.message.c_str());
+    terminal_.end_line();
+    complain(error);
   }
 
   const RunOptions& options_;
@@ -316,7 +321,9 @@ int run(const RunOptions& given) {
   const RunView view{inputs, planner, object};
   Run the_run(options, view, *loop, *world.value(), std::move(log).value());
   the_run.to_the_end();
-  return the_run.write_and_tell();
+  const int status = the_run.write_and_tell();
+  running_loop.store(nullptr);
+  return status;
 }
 
 }  // namespace ivo::firmware

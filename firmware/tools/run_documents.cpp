@@ -72,6 +72,9 @@ RunOutcome outcome_of(const RunView& run, const LoopStatus& status, bool stalled
     const AgentSpec& finder = run.inputs.file.mission.agents[static_cast<std::size_t>(*status.finder)];
     return {RunEnd::kFound, finder.name + " found the object after " + fixed(seconds(status.search_time), 1) + " s"};
   }
+  if (status.stop_cause == StopCause::kPlanNotKept) {
+    return {RunEnd::kStopped, "the plans could not be written"};
+  }
   if (status.stop_cause == StopCause::kAsked) {
     return {RunEnd::kStopped, "stop was asked for"};
   }
