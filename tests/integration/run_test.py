@@ -1,32 +1,36 @@
 #!/usr/bin/env python3
 """`ivo run` from outside: what it writes, what it returns, what it never does."""
 
+import fcntl
 import os
 import pty
 import resource
 import signal
+import struct
 import subprocess
-import sys
 import tempfile
 import unittest
 
 from mission_files import COURTYARD, IVO, MISSION, events, ivo, read_json, write_mission, write_png
 
 
-def terminals_are_there():
+def open_terminal():
+    """(near end, far end) of a pseudo-terminal; on a bare root that has no devpts, root mounts one for a moment."""
     try:
-        for end in pty.openpty():
-            os.close(end)
-        return True
+        return pty.openpty()
     except OSError:
-        return False
-
-
-def with_terminals_of_its_own():
-    """A bare root may have no devpts: as root, starts this test anew with one that nobody else sees."""
-    mount = "mount -t devpts -o newinstance,ptmxmode=0666 devpts /dev/pts && exec \"$@\""
-    os.environ["IVO_TEST_TERMINALS"] = "own"
-    os.execvp("unshare", ["unshare", "--mount", "sh", "-c", mount, "sh", sys.executable, "-B", *sys.argv])
+        pass
+    with tempfile.TemporaryDirectory() as folder:
+        mount = ["mount", "-t", "devpts", "-o", "newinstance,ptmxmode=0666", "devpts", folder]
+        if subprocess.run(mount, capture_output=True, check=False).returncode != 0:
+            raise unittest.SkipTest("no pseudo-terminals here, and only root may mount some")
+        try:
+            near_end = os.open(os.path.join(folder, "ptmx"), os.O_RDWR | os.O_NOCTTY)
+            fcntl.ioctl(near_end, 0x40045431, struct.pack("i", 0))  # TIOCSPTLCK: unlock
+            number = struct.unpack("i", fcntl.ioctl(near_end, 0x80045430, bytes(4)))[0]  # TIOCGPTN
+            return near_end, os.open(os.path.join(folder, str(number)), os.O_RDWR | os.O_NOCTTY)
+        finally:
+            subprocess.run(["umount", "--lazy", folder], check=True)
 
 
 def contents(folder, name):
@@ -89,9 +93,7 @@ class Run(unittest.TestCase):
             self.assertEqual(agent["distance_m"], 0.0)
 
     def ask_at_a_terminal(self, answer, typed_before=b""):
-        if not terminals_are_there():
-            self.skipTest("no pseudo-terminals here, and only root may mount some")
-        terminal, far_end = pty.openpty()
+        terminal, far_end = open_terminal()
         os.write(terminal, typed_before)
         process = subprocess.Popen(
             [IVO, "run", write_mission(self.folder), "--speed", "max", "--out", self.out],
@@ -120,9 +122,7 @@ class Run(unittest.TestCase):
         self.assertNotIn("searching", self.modes())
 
     def test_without_a_screen_to_show_the_plans_on_nobody_is_asked(self):
-        if not terminals_are_there():
-            self.skipTest("no pseudo-terminals here, and only root may mount some")
-        terminal, far_end = pty.openpty()
+        terminal, far_end = open_terminal()
         os.write(terminal, b"y\n")
         done = subprocess.run(
             [IVO, "run", write_mission(self.folder), "--speed", "max", "--out", self.out],
@@ -281,6 +281,4 @@ def distance(p, a, b):
 
 
 if __name__ == "__main__":
-    if not terminals_are_there() and os.geteuid() == 0 and "IVO_TEST_TERMINALS" not in os.environ:
-        with_terminals_of_its_own()
     unittest.main()
