@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "config/base/static_vector.hpp"
 #include "planner/refusal.hpp"
@@ -14,9 +15,10 @@ namespace ivo::planner {
 
 using PreferredAreas = StaticVector<Areas, limits::kAgents>;
 
-/// Scales belief.mass to sum 1 over the observable cells, sets it 0 elsewhere, lists the cells with mass and reports
-/// the unobservable share. Refuses an agent that can observe no mass. Cost: the cells.
-[[nodiscard]] Refusal normalise(const SightTable& sight, int cells, int agents, Belief& belief) noexcept;
+/// From raw masses, one a cell and not normalised: belief.mass with sum 1 over the observable cells and 0 elsewhere, the
+/// list of cells with mass, and the unobservable share. Refuses an agent that can observe no mass. Cost: the cells.
+[[nodiscard]] Refusal normalise(const Cells& cells, const SightTable& sight, int agents, std::span<const double> raw,
+                                Belief& belief) noexcept;
 
 /// A cell preferred by some agents goes to them in equal parts; a cell preferred by nobody goes in equal parts to the
 /// agents that stated no preference, or to all if every agent stated one. Shares count what the agent can observe; each

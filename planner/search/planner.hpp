@@ -10,7 +10,8 @@
 #include "planner/prior/preferences.hpp"
 #include "planner/prior/prior.hpp"
 #include "planner/refusal.hpp"
-#include "planner/search/ant.hpp"
+#include "planner/search/colony.hpp"
+#include "planner/search/improver.hpp"
 #include "planner/search/plan.hpp"
 #include "planner/world/cells.hpp"
 #include "planner/world/graph.hpp"
@@ -24,19 +25,13 @@ struct SearchAgent {
   Areas preferred;
 };
 
-/// Symbols as in model.md, "Search (MMAS)"; alpha is 1.
-struct ColonyParameters {
-  int generations = 300;
-  int ants = 10;
-  int beta = 6;
-  double rho = 0.002;
-  double iteration_best = 0.5;  ///< probability that the generation's best deposits, not the best so far
-  AntParameters ant;
-  std::uint64_t seed = 1;
-};
-
 /// Uniform (monostate), a Gaussian mixture, or an image.
 using PriorChoice = std::variant<std::monostate, std::span<const GaussianComponent>, GreyView>;
+
+enum class Profile : std::uint8_t {
+  kPaper,  ///< the paper's MMAS on Eq. 8 or EST
+  kFast,   ///< the default: a short MMAS, then iterated improvement of its plan, off the graph too, on ET_c or EST
+};
 
 struct SearchProblem {
   SegmentedMap map;
@@ -44,6 +39,7 @@ struct SearchProblem {
   GraphParameters graph;
   PriorChoice prior;
   StaticVector<SearchAgent, limits::kAgents> agents;
+  Profile profile = Profile::kFast;
   ColonyParameters colony;
 };
 
@@ -62,15 +58,15 @@ struct Progress {
 
 class Planner {
  public:
-  Planner() noexcept : ant_({graph_, sight_, belief_, speeds_mps_}, trails_) {}
+  Planner() noexcept = default;
   Planner(const Planner&) = delete;
   Planner& operator=(const Planner&) = delete;
 
-  /// Builds cells, graph, prior, sight table and sub-priors, and readies the colony. At start-up: its cost has no small
+  /// Builds cells, graph, prior, sight table and sub-priors, and readies the search. At start-up: its cost has no small
   /// bound. What it refuses, it names; after a refusal only prepare() may be called.
   [[nodiscard]] Refusal prepare(const SearchProblem& problem) noexcept;
 
-  /// Searches on for at most about `budget.units`; the last part may go over by one part (kRowsAPart rows). Nothing
+  /// Searches on for at most about `budget.units`; the last part may go over by one part (Colony::kRowsAPart). Nothing
   /// when done.
   Progress step(Budget budget) noexcept;
   [[nodiscard]] Progress progress() const noexcept;
@@ -87,37 +83,28 @@ class Planner {
   [[nodiscard]] AgentSet left_without_sub_prior() const noexcept { return left_without_sub_prior_; }
 
  private:
-  static constexpr int kRowsAPart = 256;
-  enum class Phase : std::uint8_t { kAnts, kRaise, kEvaporate, kClamp, kDone };
-
-  void start_colony() noexcept;
-  int advance() noexcept;
-  int end_ant() noexcept;
-  int end_ants() noexcept;
-  int deposit() noexcept;
-  int sweep_trails() noexcept;
-  [[nodiscard]] double cost(const PlanScore& score) const noexcept;
-  [[nodiscard]] bool better(const PlanScore& a, const PlanScore& b) const noexcept;
+  void fill_paces() noexcept;
+  void open_improver(const SearchProblem& problem) noexcept;
+  [[nodiscard]] bool improved() const noexcept { return profile_ == Profile::kFast && improver_.has_best(); }
+  void cut(AgentPath& path, double end_s, double speed_mps) const noexcept;
 
   Cells cells_;
   Graph graph_;
+  std::array<double, limits::kCells> raw_mass_{};  // while preparing
   Belief belief_;
   SightTable sight_;
-  Trails trails_;
-  Ant ant_;
+  EdgePaces paces_{};
+  World world_{cells_, graph_, sight_, belief_, paces_};
+  FirstSightings sightings_;  // scratch of whoever scores
+  Colony colony_{world_, sightings_};
   std::array<double, limits::kAgents> speeds_mps_{};
   AgentSet left_without_sub_prior_ = 0;
-
-  ColonyParameters parameters_;
-  Rng rng_;
-  Phase phase_ = Phase::kDone;
-  int generation_ = 0;  // finished
-  int ants_done_ = 0;   // of this generation
-  int sweep_agent_ = 0;
-  Edge sweep_edge_ = 0;
-  bool has_best_ = false;
-  Tour generation_best_;
-  Tour best_;
+  Improver improver_{world_, sightings_};
+  Profile profile_ = Profile::kFast;
+  int generations_ = 0;
+  bool improvable_ = false;
+  bool improving_ = false;
+  bool ready_ = false;
 };
 
 }  // namespace ivo::planner
