@@ -59,8 +59,19 @@ Refusal Planner::prepare(const SearchProblem& problem) noexcept {
   if (const Refusal refusal = divide(cells_, sight_, preferred, belief_, left_without_sub_prior_)) {
     return refusal;
   }
+  build_bounds(problem);
   start_colony();
   return {};
+}
+
+void Planner::build_bounds(const SearchProblem& problem) noexcept {
+  StaticVector<BoundAgent, limits::kAgents> agents;
+  for (const SearchAgent& agent : problem.agents) {
+    (void)agents.push_back({.walker = {agent.body.start, agent.body.kind, agent.body.footprint_radius_m},
+                            .speed_mps = agent.speed_mps,
+                            .sight_radius_m = agent.sight_radius_m});
+  }
+  bounds_.build(problem.map, cells_, belief_, agents.span());
 }
 
 void Planner::start_colony() noexcept {

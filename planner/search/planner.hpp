@@ -11,6 +11,7 @@
 #include "planner/prior/prior.hpp"
 #include "planner/refusal.hpp"
 #include "planner/search/ant.hpp"
+#include "planner/search/bounds.hpp"
 #include "planner/search/plan.hpp"
 #include "planner/world/cells.hpp"
 #include "planner/world/graph.hpp"
@@ -79,6 +80,10 @@ class Planner {
   /// mass. Cost: the copy of its waypoints.
   void best_plan(Plan& plan) const noexcept;
 
+  /// What no plan that leaves `unseen_mass` can be better than. Cost: bounds.hpp.
+  [[nodiscard]] Bounds bounds(double unseen_mass) const noexcept { return bounds_.at(unseen_mass); }
+  [[nodiscard]] const BoundTable& bound_table() const noexcept { return bounds_; }
+
   [[nodiscard]] const Cells& cells() const noexcept { return cells_; }
   [[nodiscard]] const Graph& graph() const noexcept { return graph_; }
   [[nodiscard]] const SightTable& sight() const noexcept { return sight_; }
@@ -90,6 +95,7 @@ class Planner {
   static constexpr int kRowsAPart = 256;
   enum class Phase : std::uint8_t { kAnts, kRaise, kEvaporate, kClamp, kDone };
 
+  void build_bounds(const SearchProblem& problem) noexcept;
   void start_colony() noexcept;
   int advance() noexcept;
   int end_ant() noexcept;
@@ -103,6 +109,7 @@ class Planner {
   Graph graph_;
   Belief belief_;
   SightTable sight_;
+  BoundTable bounds_;
   Trails trails_;
   Ant ant_;
   std::array<double, limits::kAgents> speeds_mps_{};
