@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "planner/numeric/index.hpp"
 
@@ -39,6 +40,9 @@ Refusal normalise(const SightTable& sight, int cells, int agents, Belief& belief
   belief.mass_cell_count = 0;
   for (Cell c = 0; c < cells; ++c) {
     double& mass = belief.mass[index(c)];
+    if (!(mass >= 0.0)) {
+      return {.code = RefusalCode::kPriorNotFinite, .value = mass};
+    }
     whole += mass;
     const AgentSet by = sight.observable_by(c);
     if (by == 0) {
@@ -49,6 +53,9 @@ Refusal normalise(const SightTable& sight, int cells, int agents, Belief& belief
       observers = static_cast<AgentSet>(observers | by);
       belief.mass_cells[index(belief.mass_cell_count++)] = c;
     }
+  }
+  if (!std::isfinite(whole)) {
+    return {.code = RefusalCode::kPriorNotFinite, .value = whole};
   }
   if (whole <= 0.0) {
     return {.code = RefusalCode::kPriorWithoutMass};
@@ -63,6 +70,18 @@ Refusal normalise(const SightTable& sight, int cells, int agents, Belief& belief
     belief.mass[index(c)] /= observable;
   }
   return {};
+}
+
+void scale_sub_prior(int agent, double sum, Belief& belief, AgentSet& left_without) noexcept {
+  const bool none = sum <= 0.0;
+  if (none) {
+    left_without = static_cast<AgentSet>(left_without | agent_bit(agent));
+  }
+  const double scale = none ? 1.0 / belief.agents : 1.0 / (belief.agents * sum);
+  for (const Cell c : belief.cells_with_mass()) {
+    const double share = none ? belief.mass[index(c)] : belief.sub_mass[index(agent)][index(c)];
+    belief.sub_mass[index(agent)][index(c)] = share * scale;
+  }
 }
 
 Refusal divide(const Cells& cells, const SightTable& sight, const PreferredAreas& preferred, Belief& belief,
@@ -103,15 +122,7 @@ Refusal divide(const Cells& cells, const SightTable& sight, const PreferredAreas
     }
   }
   for (int m = 0; m < belief.agents; ++m) {
-    const bool none = sums[index(m)] <= 0.0;
-    if (none) {
-      left_without = static_cast<AgentSet>(left_without | agent_bit(m));
-    }
-    const double scale = none ? 1.0 / belief.agents : 1.0 / (belief.agents * sums[index(m)]);
-    for (const Cell c : belief.cells_with_mass()) {
-      const double share = none ? belief.mass[index(c)] : belief.sub_mass[index(m)][index(c)];
-      belief.sub_mass[index(m)][index(c)] = share * scale;
-    }
+    scale_sub_prior(m, sums[index(m)], belief, left_without);
   }
   return {};
 }

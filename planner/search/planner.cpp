@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "planner/search/problem_checks.hpp"
 #include "planner/world/visibility.hpp"
 
 namespace ivo::planner {
@@ -26,6 +27,9 @@ Refusal Planner::prepare(const SearchProblem& problem) noexcept {
   phase_ = Phase::kDone;
   has_best_ = false;
   parameters_ = problem.colony;
+  if (const Refusal refusal = check(problem)) {
+    return refusal;
+  }
   if (const Refusal refusal = cells_.build(problem.map, problem.cell_m)) {
     return refusal;
   }
@@ -56,7 +60,14 @@ Refusal Planner::prepare(const SearchProblem& problem) noexcept {
   }
   const double observable_m2 = belief_.mass_cell_count * cells_.cell_m() * cells_.cell_m();
   belief_.sub_prior_steps = step_of(kSubPriorHorizon * observable_m2 / swept_m2_a_second);
-  if (const Refusal refusal = divide(cells_, sight_, preferred, belief_, left_without_sub_prior_)) {
+  const auto* components = std::get_if<std::span<const GaussianComponent>>(&problem.prior);
+  const Refusal refusal =
+      std::holds_alternative<std::monostate>(problem.sub_priors)
+          ? divide(cells_, sight_, preferred, belief_, left_without_sub_prior_)
+          : give_sub_priors(cells_, sight_, problem.sub_priors,
+                            components != nullptr ? *components : std::span<const GaussianComponent>(), belief_,
+                            left_without_sub_prior_);
+  if (refusal) {
     return refusal;
   }
   build_bounds(problem);

@@ -9,6 +9,7 @@
 #include "planner/numeric/index.hpp"
 #include "planner/prior/preferences.hpp"
 #include "planner/prior/prior.hpp"
+#include "planner/prior/sub_priors.hpp"
 #include "planner/refusal.hpp"
 #include "planner/search/ant.hpp"
 #include "planner/search/bounds.hpp"
@@ -44,6 +45,7 @@ struct SearchProblem {
   double cell_m = 0.25;
   GraphParameters graph;
   PriorChoice prior;
+  SubPriorChoice sub_priors;  ///< given ones exclude preferred areas
   StaticVector<SearchAgent, limits::kAgents> agents;
   ColonyParameters colony;
 };
