@@ -169,8 +169,10 @@ AgentSpec read_agent(const TomlValue& table, const std::string& mission_path) {
     table.refuse("heading_deg", "belongs to a robot; a person needs none");
   }
   agent.preferred = read_areas(table.optional("preferred"));
-  if (const TomlValue sub_prior = table.optional("sub_prior"); sub_prior.present()) {
+  if (const TomlValue sub_prior = table.optional("sub_prior"); sub_prior.is_table()) {
     agent.sub_prior = read_image(sub_prior, mission_path);
+  } else if (sub_prior.present()) {
+    sub_prior.complain("is no sub-prior; expected { image = \"...\", resolution_m = ... }");
   }
   agent.restricted = read_areas(table.optional("restricted"));
   return agent;
