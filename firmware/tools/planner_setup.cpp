@@ -98,7 +98,8 @@ Error sentence(const planner::Refusal& refusal, const MissionInputs& inputs) {
                       "preferred areas beside sub-priors that are given; expected one of the two");
     case RefusalCode::kPriorNotFinite:
       return lines.at(agent != nullptr ? agent_key + ".sub_prior" : "prior",
-                      "holds a mass of " + (std::isnan(refusal.value) ? "nan" : shortest(refusal.value)) + "; expected finite numbers, 0 or more");
+                      "holds a mass of " + (std::isnan(refusal.value) ? "nan" : shortest(refusal.value)) +
+                          "; expected finite numbers, 0 or more");
     default:
       return invalid_problem(refusal, lines);
   }
