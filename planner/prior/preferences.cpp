@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "planner/numeric/index.hpp"
 
@@ -39,12 +40,18 @@ Refusal normalise(const Cells& cells, const SightTable& sight, int agents, std::
   belief.agents = agents;
   belief.mass_cell_count = 0;
   for (Cell c = 0; c < cells.count(); ++c) {
+    if (!(raw[index(c)] >= 0.0)) {
+      return {.code = RefusalCode::kPriorNotFinite, .value = raw[index(c)]};
+    }
     const AgentSet by = sight.observable_by(c);
     whole += raw[index(c)];
     if (by != 0 && raw[index(c)] > 0.0) {
       observable += raw[index(c)];
       observers = static_cast<AgentSet>(observers | by);
     }
+  }
+  if (!std::isfinite(whole)) {
+    return {.code = RefusalCode::kPriorNotFinite, .value = whole};
   }
   if (whole <= 0.0) {
     return {.code = RefusalCode::kPriorWithoutMass};
@@ -108,15 +115,8 @@ Refusal divide(const Cells& cells, const SightTable& sight, const PreferredAreas
     }
   }
   for (int m = 0; m < belief.agents; ++m) {
-    const bool none = sums[index(m)] <= 0.0;
-    if (none) {
-      left_without = static_cast<AgentSet>(left_without | agent_bit(m));
-    }
-    const double scale = none ? 1.0 / belief.agents : 1.0 / (belief.agents * sums[index(m)]);
-    for (const Cell c : belief.cells_with_mass()) {
-      const Mass share = none ? belief.mass[index(c)] : belief.sub_mass[index(m)][index(c)];
-      belief.sub_mass[index(m)][index(c)] = mass_from(to_double(share) * scale);
-    }
+    fill_sub_prior(m, sums[index(m)], belief, left_without,
+                   [&](Cell c) { return to_double(belief.sub_mass[index(m)][index(c)]); });
   }
   return {};
 }

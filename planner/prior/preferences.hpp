@@ -16,7 +16,8 @@ namespace ivo::planner {
 using PreferredAreas = StaticVector<Areas, limits::kAgents>;
 
 /// From raw masses, one a cell and not normalised: belief.mass with sum 1 over the observable cells and 0 elsewhere, the
-/// list of cells with mass, and the unobservable share. Refuses an agent that can observe no mass. Cost: the cells.
+/// list of cells with mass, and the unobservable share. Refuses a mass below 0, one that is not
+/// finite, and an agent that can observe no mass. Cost: the cells.
 [[nodiscard]] Refusal normalise(const Cells& cells, const SightTable& sight, int agents, std::span<const double> raw,
                                 Belief& belief) noexcept;
 
@@ -26,5 +27,21 @@ using PreferredAreas = StaticVector<Areas, limits::kAgents>;
 /// sub-priors. Refuses an area that covers no mass its agent can observe. Cost: cells times areas.
 [[nodiscard]] Refusal divide(const Cells& cells, const SightTable& sight, const PreferredAreas& preferred,
                              Belief& belief, AgentSet& left_without) noexcept;
+
+/// p_m of one agent from shares of any scale, `sum` their sum over the cells with mass: scaled to 1/M; p/M when there is
+/// none, and `left_without` says so. Cost: the cells with mass.
+template <class ShareOf>
+void fill_sub_prior(int agent, double sum, Belief& belief, AgentSet& left_without, ShareOf&& share_of) noexcept {
+  const bool none = sum <= 0.0;
+  if (none) {
+    left_without = static_cast<AgentSet>(left_without | agent_bit(agent));
+  }
+  const double scale = none ? 1.0 / belief.agents : 1.0 / (belief.agents * sum);
+  for (const Cell c : belief.cells_with_mass()) {
+    const double share = none ? to_double(belief.mass[index(c)]) : share_of(c);
+    belief.sub_mass[index(agent)][index(c)] = mass_from(share * scale);
+  }
+}
+
 
 }  // namespace ivo::planner

@@ -10,8 +10,14 @@
 
 namespace ivo::planner {
 
+enum class Profile : std::uint8_t {
+  kPaper,  ///< the paper's MMAS on Eq. 8 or EST
+  kFast,   ///< the default: a short MMAS, then iterated improvement of its plan, off the graph too, on ET_c or EST
+};
+
 /// Symbols as in model.md, "Search (MMAS)"; alpha is 1.
 struct ColonyParameters {
+  Profile profile = Profile::kFast;
   Heuristic heuristic = Heuristic::kTsp;
   int generations = 300;
   int ants = 10;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/search/problem_checks.hpp"
 #include "planner/world/visibility.hpp"
 
 namespace ivo::planner {
@@ -28,6 +29,9 @@ void fill_prior(const Cells& cells, const PriorChoice& prior, std::span<double> 
 
 Refusal Planner::prepare(const SearchProblem& problem) noexcept {
   ready_ = false;
+  if (const Refusal refusal = check(problem)) {
+    return refusal;
+  }
   if (const Refusal refusal = cells_.build(problem.map, problem.cell_m)) {
     return refusal;
   }
@@ -58,11 +62,19 @@ Refusal Planner::prepare(const SearchProblem& problem) noexcept {
   }
   const double observable_m2 = belief_.mass_cell_count * cells_.cell_m() * cells_.cell_m();
   belief_.sub_prior_steps = step_of(kSubPriorHorizon * observable_m2 / swept_m2_a_second);
-  if (const Refusal refusal = divide(cells_, sight_, preferred, belief_, left_without_sub_prior_)) {
+  const auto* components = std::get_if<std::span<const GaussianComponent>>(&problem.prior);
+  const Refusal refusal =
+      std::holds_alternative<std::monostate>(problem.sub_priors)
+          ? divide(cells_, sight_, preferred, belief_, left_without_sub_prior_)
+          : give_sub_priors(cells_, sight_, problem.sub_priors,
+                            components != nullptr ? *components : std::span<const GaussianComponent>(), belief_,
+                            left_without_sub_prior_);
+  if (refusal) {
     return refusal;
   }
+  build_bounds(problem);
   fill_paces();
-  profile_ = problem.profile;
+  profile_ = problem.colony.profile;
   generations_ = problem.colony.generations;
   improving_ = false;
   ColonyParameters colony = problem.colony;
@@ -95,6 +107,16 @@ void Planner::open_improver(const SearchProblem& problem) noexcept {
   }
   improvable_ = improver_.open(problem.map, bodies, problem.graph.clearance_m, speeds_mps_,
                                {.max_unseen_mass = problem.colony.ant.max_unseen_mass, .seed = problem.colony.seed});
+}
+
+void Planner::build_bounds(const SearchProblem& problem) noexcept {
+  StaticVector<BoundAgent, limits::kAgents> agents;
+  for (const SearchAgent& agent : problem.agents) {
+    (void)agents.push_back({.walker = {agent.body.start, agent.body.kind, agent.body.footprint_radius_m},
+                            .speed_mps = agent.speed_mps,
+                            .sight_radius_m = agent.sight_radius_m});
+  }
+  bounds_.build(problem.map, cells_, belief_, agents.span());
 }
 
 Progress Planner::step(Budget budget) noexcept {

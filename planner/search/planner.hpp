@@ -9,7 +9,9 @@
 #include "planner/numeric/index.hpp"
 #include "planner/prior/preferences.hpp"
 #include "planner/prior/prior.hpp"
+#include "planner/prior/sub_priors.hpp"
 #include "planner/refusal.hpp"
+#include "planner/search/bounds.hpp"
 #include "planner/search/colony.hpp"
 #include "planner/search/improver.hpp"
 #include "planner/search/plan.hpp"
@@ -28,18 +30,13 @@ struct SearchAgent {
 /// Uniform (monostate), a Gaussian mixture, or an image.
 using PriorChoice = std::variant<std::monostate, std::span<const GaussianComponent>, GreyView>;
 
-enum class Profile : std::uint8_t {
-  kPaper,  ///< the paper's MMAS on Eq. 8 or EST
-  kFast,   ///< the default: a short MMAS, then iterated improvement of its plan, off the graph too, on ET_c or EST
-};
-
 struct SearchProblem {
   SegmentedMap map;
   double cell_m = 0.25;
   GraphParameters graph;
   PriorChoice prior;
+  SubPriorChoice sub_priors;  ///< given ones exclude preferred areas
   StaticVector<SearchAgent, limits::kAgents> agents;
-  Profile profile = Profile::kFast;
   ColonyParameters colony;
 };
 
@@ -75,6 +72,10 @@ class Planner {
   /// mass. Cost: the copy of its waypoints.
   void best_plan(Plan& plan) const noexcept;
 
+  /// What no plan that leaves `unseen_mass` can be better than. Cost: bounds.hpp.
+  [[nodiscard]] Bounds bounds(double unseen_mass) const noexcept { return bounds_.at(unseen_mass); }
+  [[nodiscard]] const BoundTable& bound_table() const noexcept { return bounds_; }
+
   [[nodiscard]] const Cells& cells() const noexcept { return cells_; }
   [[nodiscard]] const Graph& graph() const noexcept { return graph_; }
   [[nodiscard]] const SightTable& sight() const noexcept { return sight_; }
@@ -83,6 +84,7 @@ class Planner {
   [[nodiscard]] AgentSet left_without_sub_prior() const noexcept { return left_without_sub_prior_; }
 
  private:
+  void build_bounds(const SearchProblem& problem) noexcept;
   void fill_paces() noexcept;
   void open_improver(const SearchProblem& problem) noexcept;
   [[nodiscard]] bool improved() const noexcept { return profile_ == Profile::kFast && improver_.has_best(); }
@@ -93,6 +95,7 @@ class Planner {
   std::array<double, limits::kCells> raw_mass_{};  // while preparing
   Belief belief_;
   SightTable sight_;
+  BoundTable bounds_;
   EdgePaces paces_{};
   World world_{cells_, graph_, sight_, belief_, paces_};
   FirstSightings sightings_;  // scratch of whoever scores
