@@ -42,6 +42,7 @@ struct SearchProblem {
   SegmentedMap map;
   double cell_m = 0.25;
   GraphParameters graph;
+  const GraphTable* graph_table = nullptr;  ///< instead of building one; read by prepare() alone
   PriorChoice prior;
   StaticVector<SearchAgent, limits::kAgents> agents;
   ColonyParameters colony;
