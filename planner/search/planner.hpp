@@ -87,6 +87,13 @@ class Planner {
   /// Agents whose preferences left them no mass of their own: they search p/M.
   [[nodiscard]] AgentSet left_without_sub_prior() const noexcept { return left_without_sub_prior_; }
 
+  /// A member and its bytes: where this object's memory goes.
+  struct Part {
+    const char* name;
+    std::size_t bytes;
+  };
+  [[nodiscard]] static std::span<const Part> parts() noexcept;
+
  private:
   static constexpr int kRowsAPart = 256;
   enum class Phase : std::uint8_t { kAnts, kRaise, kEvaporate, kClamp, kDone };

@@ -53,6 +53,32 @@ std::uint32_t instructions_of_nothing() noexcept {
   return instructions_between(begin, instruction_clock());
 }
 
+void loop(unsigned turns) noexcept {
+  asm volatile(
+      "0: subs %0, %0, #1\n"
+      "   bne 0b\n"
+      : "+l"(turns)
+      :
+      : "cc");
+}
+std::uint32_t instructions_of_loop(unsigned turns) noexcept {
+  const unsigned begin = instruction_clock();
+  loop(turns);
+  return instructions_between(begin, instruction_clock());
+}
+
+// A turn is two instructions. A machine whose clock follows something else would judge by chance.
+bool clock_counts_instructions() noexcept {
+  (void)instruction_clock();
+  constexpr std::uint32_t kFew = 10;
+  constexpr std::uint32_t kMany = 12'345;
+  const std::uint32_t counted = instructions_of_loop(kMany) - instructions_of_loop(kFew);
+  constexpr std::uint32_t kExpected = 2 * (kMany - kFew);
+  constexpr std::uint32_t kRounding = 2;
+  Line().text("clock: a loop of ").whole(kExpected).text(" instructions counts as ").whole(counted);
+  return counted + kRounding >= kExpected && counted <= kExpected + kRounding;
+}
+
 void measure() noexcept {
   const std::uint32_t nothing = instructions_of_nothing();
   slice_count = 0;
@@ -108,6 +134,9 @@ bool report(int number, std::uint32_t kind) noexcept {
 }  // namespace
 
 int run() noexcept {
+  if (!clock_counts_instructions()) {
+    return 1;
+  }
   bool holds = true;
   for (int number = 0; number < kCases; ++number) {
     describe_case(number, problem);

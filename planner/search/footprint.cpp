@@ -1,0 +1,31 @@
+#include "config/limits.hpp"
+#include "planner/search/planner.hpp"
+
+namespace ivo::planner {
+
+static_assert(sizeof(Planner) <= limits::kPlannerBytes, "the planner is over its profile's memory (config/limits.hpp)");
+
+std::span<const Planner::Part> Planner::parts() noexcept {
+  static constexpr Part kParts[] = {
+      {"cells", sizeof(cells_)},
+      {"graph", sizeof(graph_)},
+      {"belief", sizeof(belief_)},
+      {"sight", sizeof(sight_)},
+      {"trails", sizeof(trails_)},
+      {"ant", sizeof(ant_)},
+      {"tours", sizeof(generation_best_) + sizeof(best_)},
+  };
+  // Whoever adds a member adds it here.
+  constexpr std::size_t kSmall = 1024;
+  constexpr std::size_t kNamed = [] {
+    std::size_t sum = 0;
+    for (const Part& part : kParts) {
+      sum += part.bytes;
+    }
+    return sum;
+  }();
+  static_assert(sizeof(Planner) - kNamed <= kSmall, "a large member of the planner is missing from its parts");
+  return kParts;
+}
+
+}  // namespace ivo::planner
