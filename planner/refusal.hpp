@@ -14,6 +14,8 @@ enum class RefusalCode : std::uint8_t {
   kTooManyEdges,      ///< value directed edges so far, limit
   kSightTableFull,    ///< value events so far, limit
   kEdgeTooLong,       ///< value sight points of one edge, limit: cells too small for the spacing
+  kNoGraphTable,      ///< this build has no libccd and must be given its graph
+  kGraphTableUnfit,   ///< a graph that was given is none, or not one for these agents
   kStartOutsideMap,   ///< agent
   kStartBlocked,      ///< agent; value metres to the nearest obstacle or border, limit its footprint's radius
   kStartRestricted,   ///< agent

@@ -68,6 +68,10 @@ Error sentence(const planner::Refusal& refusal, const MissionInputs& inputs) {
     case RefusalCode::kEdgeTooLong:
       return lines.at("planner.cell_m", "an edge has " + whole(refusal.value) + " sight points, more than " +
                                             whole(refusal.limit) + "; expected a larger cell_m or a smaller spacing_m");
+    case RefusalCode::kNoGraphTable:
+      return {"this build of the planner cannot prove edges free; expected a graph made by one with libccd"};
+    case RefusalCode::kGraphTableUnfit:
+      return {"the graph given to the planner does not fit the mission; expected one built for its agents"};
     case RefusalCode::kStartOutsideMap:
       return lines.at(agent_key + ".start_m", place(agent->start) + " is outside the map; expected 0 to " +
                                                   shortest(inputs.map.view().width_m()) + ", 0 to " +

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "planner/search/problem_checks.hpp"
+#include "planner/world/graph_table.hpp"
 #include "planner/world/visibility.hpp"
 
 namespace ivo::planner {
@@ -48,7 +49,8 @@ Refusal Planner::prepare(const SearchProblem& problem) noexcept {
     speeds_mps_[m] = agent.speed_mps;
     swept_m2_a_second += 2.0 * agent.sight_radius_m * agent.speed_mps;
   }
-  if (const Refusal refusal = graph_.build(problem.map, problem.graph, bodies)) {
+  if (const Refusal refusal = problem.graph_table != nullptr ? graph_.load(*problem.graph_table, bodies)
+                                                             : graph_.build(problem.map, problem.graph, bodies)) {
     return refusal;
   }
 

@@ -34,6 +34,7 @@ struct SearchProblem {
   SegmentedMap map;
   double cell_m = 0.25;
   GraphParameters graph;
+  const GraphTable* graph_table = nullptr;  ///< instead of building one; read by prepare() alone
   PriorChoice prior;
   SubPriorChoice sub_priors;  ///< given ones exclude preferred areas
   StaticVector<SearchAgent, limits::kAgents> agents;
@@ -82,6 +83,13 @@ class Planner {
   [[nodiscard]] const Belief& belief() const noexcept { return belief_; }
   /// Agents whose preferences left them no mass of their own: they search p/M.
   [[nodiscard]] AgentSet left_without_sub_prior() const noexcept { return left_without_sub_prior_; }
+
+  /// A member and its bytes: where this object's memory goes.
+  struct Part {
+    const char* name;
+    std::size_t bytes;
+  };
+  [[nodiscard]] static std::span<const Part> parts() noexcept;
 
  private:
   void build_bounds(const SearchProblem& problem) noexcept;
