@@ -111,7 +111,8 @@ TEST(MissionFile, ReadsEveryKindOfObjectAndPrior) {
 
 TEST(MissionFile, ReadsEveryPlannerParameter) {
   const auto file = mission_of(replaced(kMission, "cell_m = 0.5",
-                                        "profile = 'paper'\nheuristic = 'mts'\ncell_m = 0.1\nspacing_m = 1.5\nclearance_m = 0.2\ngenerations = 5\nants = 6\n"
+                                        "profile = 'paper'\nheuristic = 'mts'\ncell_m = 0.1\nspacing_m = "
+                                        "1.5\nclearance_m = 0.2\ngenerations = 5\nants = 6\n"
                                         "beta = 7\nrho = 0.08\nshortest_first = 0.9\niteration_best = 0.25\n"
                                         "max_unseen_mass = 0.01"));
   ASSERT_TRUE(file.ok()) << file.error().message;
