@@ -12,6 +12,7 @@
 #include <type_traits>
 
 #include "firmware/files/number_text.hpp"
+#include "firmware/tools/bench/bench_command.hpp"
 #include "firmware/tools/exit_status.hpp"
 #include "firmware/tools/plan_options.hpp"
 #include "firmware/tools/run_options.hpp"
@@ -101,6 +102,16 @@ CLI::App* add_score(CLI::App& app, ScoreOptions& options) {
   return command;
 }
 
+CLI::App* add_bench(CLI::App& app, bench::CommandOptions& options) {
+  CLI::App* command = app.add_subcommand("bench", "Measure the search core");
+  command->add_option("NAME", options.name, "Which bench, or all; without a name a list of them")->check(not_empty);
+  command->add_option("--json", options.json, "File for the figures")->check(not_empty);
+  command->add_flag("--quick", options.bench.quick, "Shortened: for a look, not for figures");
+  command->add_option("--data", options.bench.data, "Folder with dubai/ and sarenv/, for scale")
+      ->check(CLI::ExistingDirectory);
+  return command;
+}
+
 }  // namespace
 
 int command_line(int argc, const char* const* argv) {
@@ -139,6 +150,8 @@ int command_line(int argc, const char* const* argv) {
   CLI::App* const plan_command = add_plan(app, plan_options, threads);
   ScoreOptions score_options;
   CLI::App* const score_command = add_score(app, score_options);
+  bench::CommandOptions bench_options;
+  CLI::App* const bench_command = add_bench(app, bench_options);
 
   try {
     app.parse(argc, argv);
@@ -151,6 +164,9 @@ int command_line(int argc, const char* const* argv) {
   }
   if (score_command->parsed()) {
     return score(score_options);
+  }
+  if (bench_command->parsed()) {
+    return bench::run(bench_options);
   }
   run_options.lock_step = clock == "sync";
   return run(run_options);
