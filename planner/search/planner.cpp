@@ -56,12 +56,14 @@ Refusal Planner::prepare(const SearchProblem& problem) noexcept {
   }
   const double observable_m2 = belief_.mass_cell_count * cells_.cell_m() * cells_.cell_m();
   belief_.sub_prior_steps = step_of(kSubPriorHorizon * observable_m2 / swept_m2_a_second);
-  if (!problem.sub_priors.empty()) {
-    for (std::size_t m = 0; m < bodies.size(); ++m) {
-      fill_prior(cells_, problem.sub_priors[m], std::span<double>(belief_.sub_mass[m].data(), index(cells_.count())));
-    }
-    deal(sight_, belief_, left_without_sub_prior_);
-  } else if (const Refusal refusal = divide(cells_, sight_, preferred, belief_, left_without_sub_prior_)) {
+  const auto* components = std::get_if<std::span<const GaussianComponent>>(&problem.prior);
+  const Refusal refusal =
+      std::holds_alternative<std::monostate>(problem.sub_priors)
+          ? divide(cells_, sight_, preferred, belief_, left_without_sub_prior_)
+          : give_sub_priors(cells_, sight_, problem.sub_priors,
+                            components != nullptr ? *components : std::span<const GaussianComponent>(), belief_,
+                            left_without_sub_prior_);
+  if (refusal) {
     return refusal;
   }
   start_colony();

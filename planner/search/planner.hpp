@@ -9,6 +9,7 @@
 #include "planner/numeric/index.hpp"
 #include "planner/prior/preferences.hpp"
 #include "planner/prior/prior.hpp"
+#include "planner/prior/sub_priors.hpp"
 #include "planner/refusal.hpp"
 #include "planner/search/ant.hpp"
 #include "planner/search/bounds.hpp"
@@ -48,14 +49,13 @@ struct ColonyParameters {
 
 /// Uniform (monostate), a Gaussian mixture, or an image.
 using PriorChoice = std::variant<std::monostate, std::span<const GaussianComponent>, GreyView>;
-using PriorChoices = StaticVector<PriorChoice, limits::kAgents>;
 
 struct SearchProblem {
   SegmentedMap map;
   double cell_m = 0.25;
   GraphParameters graph;
   PriorChoice prior;
-  PriorChoices sub_priors;  ///< one an agent, given; empty: from the agents' preferred areas
+  SubPriorChoice sub_priors;  ///< given ones exclude preferred areas
   StaticVector<SearchAgent, limits::kAgents> agents;
   ColonyParameters colony;
 };
