@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "planner/numeric/index.hpp"
 
@@ -39,6 +40,9 @@ Refusal normalise(const SightTable& sight, int cells, int agents, Belief& belief
   belief.mass_cell_count = 0;
   for (Cell c = 0; c < cells; ++c) {
     double& mass = belief.mass[index(c)];
+    if (!(mass >= 0.0)) {
+      return {.code = RefusalCode::kPriorNotFinite, .value = mass};
+    }
     whole += mass;
     const AgentSet by = sight.observable_by(c);
     if (by == 0) {
@@ -49,6 +53,9 @@ Refusal normalise(const SightTable& sight, int cells, int agents, Belief& belief
       observers = static_cast<AgentSet>(observers | by);
       belief.mass_cells[index(belief.mass_cell_count++)] = c;
     }
+  }
+  if (!std::isfinite(whole)) {
+    return {.code = RefusalCode::kPriorNotFinite, .value = whole};
   }
   if (whole <= 0.0) {
     return {.code = RefusalCode::kPriorWithoutMass};

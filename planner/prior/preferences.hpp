@@ -15,7 +15,8 @@ namespace ivo::planner {
 using PreferredAreas = StaticVector<Areas, limits::kAgents>;
 
 /// Scales belief.mass to sum 1 over the observable cells, sets it 0 elsewhere, lists the cells with mass and reports
-/// the unobservable share. Refuses an agent that can observe no mass. Cost: the cells.
+/// the unobservable share. Refuses a mass below 0, one that is not finite, and an agent that can observe no mass. Cost:
+/// the cells.
 [[nodiscard]] Refusal normalise(const SightTable& sight, int cells, int agents, Belief& belief) noexcept;
 
 /// A cell preferred by some agents goes to them in equal parts; a cell preferred by nobody goes in equal parts to the

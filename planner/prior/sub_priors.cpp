@@ -1,6 +1,7 @@
 #include "planner/prior/sub_priors.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "planner/numeric/index.hpp"
 #include "planner/prior/preferences.hpp"
@@ -48,6 +49,9 @@ Refusal give_sub_priors(const Cells& cells, const SightTable& sight, const SubPr
                                                : belief.mass[index(c)];
       sub[index(c)] = in(sight.observable_by(c), m) ? share : 0.0;
       sum += sub[index(c)];
+    }
+    if (!std::isfinite(sum)) {
+      return {.code = RefusalCode::kPriorNotFinite, .agent = m, .value = sum};
     }
     scale_sub_prior(m, sum, belief, left_without);
   }

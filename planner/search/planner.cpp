@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "planner/search/problem_checks.hpp"
 #include "planner/world/visibility.hpp"
 
 namespace ivo::planner {
@@ -26,6 +27,9 @@ Refusal Planner::prepare(const SearchProblem& problem) noexcept {
   phase_ = Phase::kDone;
   has_best_ = false;
   parameters_ = problem.colony;
+  if (const Refusal refusal = check(problem)) {
+    return refusal;
+  }
   if (const Refusal refusal = cells_.build(problem.map, problem.cell_m)) {
     return refusal;
   }
@@ -66,8 +70,19 @@ Refusal Planner::prepare(const SearchProblem& problem) noexcept {
   if (refusal) {
     return refusal;
   }
+  build_bounds(problem);
   start_colony();
   return {};
+}
+
+void Planner::build_bounds(const SearchProblem& problem) noexcept {
+  StaticVector<BoundAgent, limits::kAgents> agents;
+  for (const SearchAgent& agent : problem.agents) {
+    (void)agents.push_back({.walker = {agent.body.start, agent.body.kind, agent.body.footprint_radius_m},
+                            .speed_mps = agent.speed_mps,
+                            .sight_radius_m = agent.sight_radius_m});
+  }
+  bounds_.build(problem.map, cells_, belief_, agents.span());
 }
 
 void Planner::start_colony() noexcept {
@@ -93,8 +108,6 @@ Progress Planner::progress() const noexcept {
           .has_plan = has_best_,
           .best = best_.score};
 }
-
-Bounds Planner::bounds(double /*unseen_mass*/) const noexcept { return {}; }
 
 int Planner::advance() noexcept {
   switch (phase_) {

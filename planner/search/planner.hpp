@@ -92,8 +92,9 @@ class Planner {
   /// mass. Cost: the copy of its waypoints.
   void best_plan(Plan& plan) const noexcept;
 
-  /// What no plan that leaves `unseen_mass` can have a smaller ET_c than (bounds.hpp).
-  [[nodiscard]] Bounds bounds(double unseen_mass) const noexcept;
+  /// What no plan that leaves `unseen_mass` can be better than. Cost: bounds.hpp.
+  [[nodiscard]] Bounds bounds(double unseen_mass) const noexcept { return bounds_.at(unseen_mass); }
+  [[nodiscard]] const BoundTable& bound_table() const noexcept { return bounds_; }
 
   [[nodiscard]] const Cells& cells() const noexcept { return cells_; }
   [[nodiscard]] const Graph& graph() const noexcept { return graph_; }
@@ -106,6 +107,7 @@ class Planner {
   static constexpr int kRowsAPart = 256;
   enum class Phase : std::uint8_t { kAnts, kRaise, kEvaporate, kClamp, kDone };
 
+  void build_bounds(const SearchProblem& problem) noexcept;
   void start_colony() noexcept;
   int advance() noexcept;
   int end_ant() noexcept;
@@ -119,6 +121,7 @@ class Planner {
   Graph graph_;
   Belief belief_;
   SightTable sight_;
+  BoundTable bounds_;
   Trails trails_;
   Ant ant_;
   std::array<double, limits::kAgents> speeds_mps_{};
