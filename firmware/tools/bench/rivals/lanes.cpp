@@ -4,19 +4,6 @@
 #include <cmath>
 
 namespace ivo::firmware::rivals {
-namespace {
-
-LanePiece shortened(const LanePiece& piece, double gap_m) {
-  const double dx = piece.to.x_m - piece.from.x_m;
-  const double dy = piece.to.y_m - piece.from.y_m;
-  const double length_m = std::hypot(dx, dy);
-  const double share = length_m > 0.0 ? std::min(0.5, gap_m / length_m) : 0.0;
-  return {{piece.from.x_m + dx * share, piece.from.y_m + dy * share},
-          {piece.to.x_m - dx * share, piece.to.y_m - dy * share}};
-}
-
-}  // namespace
-
 std::vector<Lane> lanes(const FreeWays& ways, const planner::SegmentedMap& map, const LaneSetting& setting) {
   constexpr double kStepM = 0.5;
   const double across_m = setting.along_x ? map.height_m() : map.width_m();
@@ -42,12 +29,21 @@ std::vector<Lane> lanes(const FreeWays& ways, const planner::SegmentedMap& map, 
         lane.push_back({here, here});
       }
     }
-    for (LanePiece& piece : lane) {
-      piece = shortened(piece, setting.end_gap_m);
-    }
     all.push_back(std::move(lane));
   }
   return all;
+}
+
+Lane shortened(Lane lane, double gap_m) {
+  for (LanePiece& piece : lane) {
+    const double dx = piece.to.x_m - piece.from.x_m;
+    const double dy = piece.to.y_m - piece.from.y_m;
+    const double length = std::hypot(dx, dy);
+    const double share = length > 0.0 ? std::min(0.5, gap_m / length) : 0.0;
+    piece = {{piece.from.x_m + dx * share, piece.from.y_m + dy * share},
+             {piece.to.x_m - dx * share, piece.to.y_m - dy * share}};
+  }
+  return lane;
 }
 
 double length_m(const Lane& lane) {

@@ -16,6 +16,7 @@ enum class Order : std::uint8_t { kLaneByLane, kNearestPiece };
 
 struct Setting {
   LaneSetting lanes;
+  double end_gap_m = 0.0;        // how far a lane ends before what stops it
   bool shares_reversed = false;  // the agents' shares in the other order than their starts
   Order order = Order::kLaneByLane;
   unsigned corners = 0;  // lane by lane: two bits an agent, which corner of its share comes first; 0 is the nearest
@@ -31,7 +32,7 @@ class Lawnmower {
     }
   }
 
-  [[nodiscard]] Waypoints plan(const Setting& setting) const {
+  [[nodiscard]] Waypoints plan(const Setting& setting) {
     const std::vector<std::vector<Lane>> shares = share_out(setting);
     Waypoints all;
     for (std::size_t m = 0; m < shares.size(); ++m) {
@@ -48,7 +49,7 @@ class Lawnmower {
 
   // The lanes from one border to the other go to the agents in the order of their starts, so much to each as it sweeps
   // a second.
-  [[nodiscard]] std::vector<std::vector<Lane>> share_out(const Setting& setting) const {
+  [[nodiscard]] std::vector<std::vector<Lane>> share_out(const Setting& setting) {
     const std::size_t agents = ways_.size();
     std::vector<std::size_t> order(agents);
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -69,7 +70,7 @@ class Lawnmower {
     double from = 0.0;
     for (const std::size_t m : order) {
       const double to = from + sweeps(m) / all_sweep;
-      const std::vector<Lane> all = lanes(ways_[m], problem_.search.map, setting.lanes);
+      const std::vector<Lane>& all = whole_lanes(m, setting.lanes);
       double whole_m = 0.0;
       for (const Lane& lane : all) {
         whole_m += length_m(lane);
@@ -78,13 +79,23 @@ class Lawnmower {
       for (const Lane& lane : all) {
         const double middle = (before_m + 0.5 * length_m(lane)) / std::max(whole_m, 1e-9);
         if (middle >= from && (middle < to || m == order.back()) && !lane.empty()) {
-          shares[m].push_back(lane);
+          shares[m].push_back(shortened(lane, setting.end_gap_m));
         }
         before_m += length_m(lane);
       }
       from = to;
     }
     return shares;
+  }
+
+  const std::vector<Lane>& whole_lanes(std::size_t m, const LaneSetting& setting) {
+    for (const Known& known : known_) {
+      if (known.agent == m && known.setting == setting) {
+        return known.lanes;
+      }
+    }
+    known_.push_back({m, setting, lanes(ways_[m], problem_.search.map, setting)});
+    return known_.back().lanes;
   }
 
   static LanePiece turned(const LanePiece& piece) { return {piece.to, piece.from}; }
@@ -161,6 +172,12 @@ class Lawnmower {
 
   const RivalProblem& problem_;
   std::vector<FreeWays> ways_;
+  struct Known {
+    std::size_t agent;
+    LaneSetting setting;
+    std::vector<Lane> lanes;
+  };
+  std::vector<Known> known_;
 };
 
 // The likely ones first: as few lanes as cover the map, evenly spaced; then one more, and the full width moved.
@@ -180,7 +197,7 @@ std::vector<Setting> settings(const RivalProblem& problem) {
             const bool even = shift == 0.0 || shift == 1.0;
             const double swath_m = even ? across_m / (fewest + shift) : 2.0 * radius_m;
             const double first_m = even ? 0.5 * swath_m : (1.0 + shift) * radius_m;
-            all.push_back({{along_x, swath_m, first_m, gap * radius_m}, reversed, order, 0});
+            all.push_back({{along_x, swath_m, first_m}, gap * radius_m, reversed, order, 0});
           }
         }
       }
@@ -196,7 +213,7 @@ RivalPlan plan_like_a_lawnmower(const RivalProblem& problem, Effort effort, std:
   constexpr int kStride = 4;
   constexpr double kMaybeBest = 1.01;
   const Stopwatch watch(effort);
-  const Lawnmower lawnmower(problem);
+  Lawnmower lawnmower(problem);
   const double most_unseen = problem.search.colony.ant.max_unseen_mass;
   BestPlan best(problem);
   Setting best_setting;

@@ -15,6 +15,7 @@ namespace {
 using planner::Edge;
 using planner::Node;
 
+constexpr int kTriesARoot = 8;
 constexpr Edge kJump = -1;  // nothing new next door: TeamWalk::jump
 
 struct Move {
@@ -64,10 +65,10 @@ class RolloutTree {
     return true;
   }
 
-  /// The root goes one move along the best plan found; back to the start at its end.
+  /// The root goes one move along the best plan found; at its end back to the start.
   void advance_root() {
     const std::size_t at = taken_.size();
-    if (at >= best_moves_.size()) {
+    if (at + 1 >= best_moves_.size()) {
       root_ = TeamWalk(problem_);
       taken_.clear();
     } else if (const std::optional<int> agent = root_.next_agent()) {
@@ -77,15 +78,12 @@ class RolloutTree {
     reset_tree();
   }
 
-  [[nodiscard]] std::size_t moves_left() const {
-    return std::max<std::size_t>(1, best_moves_.size() - std::min(taken_.size(), best_moves_.size()));
-  }
   [[nodiscard]] RivalPlan best(int tries) { return best_.take(tries); }
 
  private:
   static constexpr std::size_t kMostMoves = 8;
   static constexpr double kExploration = 0.3;
-  static constexpr std::array<double, 4> kNoises = {0.05, 0.15, 0.3, 0.6};
+  static constexpr std::array<double, 4> kNoises = {0.08, 0.24, 0.5, 0.95};
 
   void reset_tree() {
     tree_.clear();
@@ -216,22 +214,14 @@ RivalPlan plan_by_rollouts(const RivalProblem& problem, Effort effort, std::uint
   const Stopwatch watch(effort);
   RolloutTree tree(problem, seed);
   int tries = 0;
-  int tries_at_root = 0;
-  double root_since_s = 0.0;
-  constexpr int kFewestTriesARoot = 24;
-  while (!watch.over(tries)) {
+  for (int at_root = 0; !watch.over(tries);) {
     ++tries;
-    ++tries_at_root;
     if (!tree.grow(watch)) {
       break;
     }
-    // What is left of the time is shared among the moves that are left.
-    const double now_s = watch.elapsed_s();
-    const double share_s = (watch.seconds() - root_since_s) / static_cast<double>(tree.moves_left());
-    if (tries_at_root >= kFewestTriesARoot && (now_s - root_since_s >= share_s)) {
+    if (++at_root >= kTriesARoot) {
+      at_root = 0;
       tree.advance_root();
-      tries_at_root = 0;
-      root_since_s = now_s;
     }
   }
   return tree.best(tries);

@@ -90,7 +90,8 @@ TEST(Rivals, AreEachAsGoodOnM1AsTheirKindGets) {
   ASSERT_NE(scene, nullptr);
   std::vector<double> expected_s;
   for (const NamedRival& rival : all()) {
-    const RivalPlan plan = rival.plan(scene->problem, tries(30), 1);
+    const RivalPlan plan =
+        rival.plan(scene->problem, tries(rival.name == std::string("receding horizon") ? 4 : 300), 1);
     ASSERT_TRUE(plan.score.complete) << rival.name;
     expected_s.push_back(plan.score.expected_time_continuous_s);
     EXPECT_GT(expected_s.back(), 70.0) << rival.name;  // no complete plan is faster
@@ -106,7 +107,7 @@ TEST(Rivals, RepeatThemselvesForTheSameSeedAndTries) {
   const std::unique_ptr<Scene> scene = prepared(m1.problem());
   ASSERT_NE(scene, nullptr);
   for (const NamedRival& rival : all()) {
-    EXPECT_EQ(rival.plan(scene->problem, tries(20), 3).waypoints, rival.plan(scene->problem, tries(20), 3).waypoints)
+    EXPECT_EQ(rival.plan(scene->problem, tries(3), 3).waypoints, rival.plan(scene->problem, tries(3), 3).waypoints)
         << rival.name;
   }
 }
