@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -59,14 +60,22 @@ struct AgentSpec {
   std::vector<Polygon> restricted;
 };
 
+/// planner::Profile and planner::Heuristic, as missions and plans name them.
+enum class SearchProfile : std::uint8_t { kPaper, kFast };
+inline constexpr std::array<const char*, 2> kSearchProfileWords = {"paper", "fast"};
+enum class SearchHeuristic : std::uint8_t { kTsp, kMts };
+inline constexpr std::array<const char*, 2> kSearchHeuristicWords = {"tsp", "mts"};
+
 struct PlannerParameters {
+  SearchProfile profile = SearchProfile::kFast;
+  SearchHeuristic heuristic = SearchHeuristic::kTsp;
   double cell_m = 0.25;       ///< sensing resolution
   double spacing_m = 3.5;     ///< h, side of a square of the graph
   double clearance_m = 0.40;  ///< node to nearest obstacle
   int generations = 300;
   int ants = 10;
   int beta = 6;                    ///< weight of the heuristic (alpha is 1)
-  double rho = 0.002;              ///< evaporation
+  std::optional<double> rho;       ///< evaporation; none: 0.002 in the paper's profile, 0.02 in the fast one
   double shortest_first = 0.9;     ///< q: probability of extending the agent whose path ends earliest
   double iteration_best = 0.5;     ///< probability that the generation's best deposits, not the best so far
   double max_unseen_mass = 0.014;  ///< a plan is complete at or below this

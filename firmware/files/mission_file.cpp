@@ -73,13 +73,17 @@ PriorSpec read_prior(const TomlValue& value, const std::string& mission_path) {
 
 PlannerParameters read_planner(const TomlValue& table) {
   PlannerParameters p;
+  p.profile = static_cast<SearchProfile>(table.optional("profile").choice({"paper", "fast"}, 1));
+  p.heuristic = static_cast<SearchHeuristic>(table.optional("heuristic").choice({"tsp", "mts"}));
   p.cell_m = table.optional("cell_m").number({0.01, 100.0, "metres"}, p.cell_m);
   p.spacing_m = table.optional("spacing_m").number({0.1, 1000.0, "metres"}, p.spacing_m);
   p.clearance_m = table.optional("clearance_m").number({0.0, 10.0, "metres"}, p.clearance_m);
   p.generations = static_cast<int>(table.optional("generations").integer(1, 1'000'000, p.generations));
   p.ants = static_cast<int>(table.optional("ants").integer(1, 1000, p.ants));
   p.beta = static_cast<int>(table.optional("beta").integer(0, 12, p.beta));
-  p.rho = table.optional("rho").number({1e-6, 1.0}, p.rho);
+  if (const TomlValue rho = table.optional("rho"); rho.present()) {
+    p.rho = rho.number({1e-6, 1.0}, 0.02);
+  }
   p.shortest_first = table.optional("shortest_first").number({0.0, 1.0}, p.shortest_first);
   p.iteration_best = table.optional("iteration_best").number({0.0, 1.0}, p.iteration_best);
   p.max_unseen_mass = table.optional("max_unseen_mass").number({0.0, 0.5}, p.max_unseen_mass);

@@ -1,4 +1,5 @@
-// plan.json: a plan and what the team can expect of it, for other programs and for a later run.
+// plan.json: a plan and what the team can expect of it, for other programs and for a later run. The form is
+// config/schemas/plan.schema.json.
 #pragma once
 
 #include <cstdint>
@@ -8,19 +9,10 @@
 
 #include "config/base/geometry.hpp"
 #include "config/base/result.hpp"
-#include "config/semantic_class.hpp"
+#include "config/mission.hpp"
+#include "firmware/files/score_document.hpp"
 
 namespace ivo::firmware {
-
-/// As planner::PlanScore defines them.
-struct ScoreDocument {
-  double expected_time_s = 0.0;
-  double expected_time_continuous_s = 0.0;
-  std::optional<double> expected_sub_prior_time_s;  ///< none without sub-priors
-  double unseen_mass = 1.0;
-  double horizon_s = 0.0;
-  bool complete = false;
-};
 
 struct PlannedAgent {
   std::string name;
@@ -36,13 +28,17 @@ struct PlanDocument {
   std::string mission;
   std::string map;  ///< name of the map's file
   std::uint64_t seed = 0;
-  std::string profile;  ///< limits::Planner::kName
+  SearchProfile profile = SearchProfile::kFast;
+  SearchHeuristic heuristic = SearchHeuristic::kTsp;
+  int threads = 1;       ///< colonies that searched
+  std::string capacity;  ///< limits::Planner::kName
   double cell_m = 0.0;
   double spacing_m = 0.0;
   int nodes = 0;
   int generations_done = 0;
   double unobservable_share = 0.0;  ///< of the prior's mass; enters no score
   ScoreDocument score;
+  BoundsDocument bounds;
   std::vector<PlannedAgent> agents;
 };
 
@@ -53,5 +49,14 @@ struct PlanDocument {
 /// What plan_json wrote, checked: every field present, of its type and in range, waypoints finite, at least one agent.
 /// Refuses with "PATH: FIELD: what was wrong; what is expected".
 [[nodiscard]] Result<PlanDocument> read_plan(const std::string& path);
+
+/// A path of a plan file that anybody may have made.
+struct ForeignPath {
+  std::optional<std::string> agent;  ///< none: the agent of the same place in the mission
+  std::vector<Point> waypoints;      ///< at least one, finite
+};
+
+/// Agents' names and waypoints of any plan, in the file's order, at least one; nothing else in the file is looked at.
+[[nodiscard]] Result<std::vector<ForeignPath>> read_paths(const std::string& path);
 
 }  // namespace ivo::firmware

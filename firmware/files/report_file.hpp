@@ -8,7 +8,7 @@
 
 #include "config/base/geometry.hpp"
 #include "config/semantic_class.hpp"
-#include "firmware/files/plan_file.hpp"
+#include "firmware/files/score_document.hpp"
 
 namespace ivo::firmware {
 
@@ -35,7 +35,8 @@ struct ReportDocument {
   std::string reason;                 ///< one line
   std::optional<std::string> finder;  ///< name of the agent
   std::optional<Point> object;
-  std::optional<ScoreDocument> score;  ///< of the plan; none when there was no plan yet
+  std::optional<ScoreDocument> score;    ///< of the plan; none when there was no plan yet
+  std::optional<BoundsDocument> bounds;  ///< with the score
   double real_search_time_s = 0.0;
   std::vector<ReportedAgent> agents;
   std::string drive_fault;  ///< empty without one

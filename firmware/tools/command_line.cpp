@@ -1,10 +1,20 @@
 #include "firmware/tools/command_line.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdint>
 #include <cstdlib>
+#include <limits>
+#include <optional>
 #include <string>
+#include <type_traits>
 
+#include "firmware/files/number_text.hpp"
+#include "firmware/tools/bench/bench_command.hpp"
 #include "firmware/tools/exit_status.hpp"
+#include "firmware/tools/plan_options.hpp"
 #include "firmware/tools/run_options.hpp"
 
 namespace ivo::firmware {
@@ -26,6 +36,81 @@ std::string read_speed(const std::string& text, RunOptions& options) {
 
 // An unset variable of a shell is not the default.
 std::string not_empty(const std::string& value) { return value.empty() ? "is empty; expected a name" : std::string(); }
+
+template <class Choice>
+void add_choice(CLI::App& command, const std::string& name, std::optional<Choice>& choice,
+                const std::array<const char*, 2>& words, const std::string& what) {
+  const std::string expected = std::string(words[0]) + " or " + words[1];
+  command.add_option_function<std::string>(
+      name,
+      [&choice, &words, name, expected](const std::string& word) {
+        const auto* const found = std::find(words.begin(), words.end(), word);
+        if (found == words.end()) {
+          throw CLI::ValidationError(name, "\"" + word + "\"; expected " + expected);
+        }
+        choice = static_cast<Choice>(found - words.begin());
+      },
+      expected + ": " + what);
+}
+
+std::string number_text(double value) { return shortest(value); }
+std::string number_text(int value) { return std::to_string(value); }
+std::string number_text(std::uint64_t value) { return std::to_string(value); }
+template <class Number>
+const char* kind_of(Number /*of*/) {
+  return std::is_integral_v<Number> ? "a whole number" : "a number";
+}
+
+/// A number of the option's type between two ends.
+template <class Number>
+void add_number(CLI::App& command, const std::string& name, std::optional<Number>& number, Number least, Number most,
+                const std::string& what) {
+  command.add_option_function<std::string>(
+      name,
+      [&number, name, least, most](const std::string& text) {
+        Number value{};
+        const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (status != std::errc() || end != text.data() + text.size() || !(value >= least && value <= most)) {
+          throw CLI::ValidationError(name, "\"" + text + "\"; expected " + kind_of(least) + ", " + number_text(least) +
+                                               " to " + number_text(most));
+        }
+        number = value;
+      },
+      what);
+}
+
+CLI::App* add_plan(CLI::App& app, PlanOptions& options, std::optional<int>& threads) {
+  CLI::App* command = app.add_subcommand("plan", "Plan a mission; nothing moves");
+  command->add_option("MISSION", options.mission, "Mission file, as config/missions/courtyard.toml")->required();
+  add_choice(*command, "--profile", options.profile, kSearchProfileWords, "instead of the mission's");
+  add_choice(*command, "--heuristic", options.heuristic, kSearchHeuristicWords, "instead of the mission's");
+  add_number(*command, "--time-limit", options.time_limit_s, 0.001, 86400.0,
+             "Seconds of search; without --iterations it goes on so long");
+  add_number(*command, "--iterations", options.iterations, 1, 1'000'000'000, "Generations, instead of the mission's");
+  add_number(*command, "--seed", options.seed, std::uint64_t{0},
+             std::uint64_t{std::numeric_limits<std::int64_t>::max()}, "Instead of the mission's");
+  add_number(*command, "--threads", threads, 1, 64, "Colonies that search side by side (default 1)");
+  command->add_option("--out", options.out, "Folder for plan and picture (default out/MISSION)")->check(not_empty);
+  return command;
+}
+
+CLI::App* add_score(CLI::App& app, ScoreOptions& options) {
+  CLI::App* command = app.add_subcommand("score", "Score a plan of any origin on a mission");
+  command->add_option("MISSION", options.mission, "Mission file")->required();
+  command->add_option("PLAN", options.plan, "Plan, as plan.json: agents and their waypoints")->required();
+  command->add_option("--json", options.json, "File for the score")->check(not_empty);
+  return command;
+}
+
+CLI::App* add_bench(CLI::App& app, bench::CommandOptions& options) {
+  CLI::App* command = app.add_subcommand("bench", "Measure the search core");
+  command->add_option("NAME", options.name, "Which bench, or all; without a name a list of them")->check(not_empty);
+  command->add_option("--json", options.json, "File for the figures")->check(not_empty);
+  command->add_flag("--quick", options.bench.quick, "Shortened: for a look, not for figures");
+  command->add_option("--data", options.bench.data, "Folder with dubai/ and sarenv/, for scale")
+      ->check(CLI::ExistingDirectory);
+  return command;
+}
 
 }  // namespace
 
@@ -60,10 +145,28 @@ int command_line(int argc, const char* const* argv) {
   run_command->add_option("--clock", clock, "real, or sync: time moves when the drives have answered (with --can)")
       ->check(CLI::IsMember({"real", "sync"}));
 
+  PlanOptions plan_options;
+  std::optional<int> threads;
+  CLI::App* const plan_command = add_plan(app, plan_options, threads);
+  ScoreOptions score_options;
+  CLI::App* const score_command = add_score(app, score_options);
+  bench::CommandOptions bench_options;
+  CLI::App* const bench_command = add_bench(app, bench_options);
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : exit_status::kWrongInput;
+  }
+  if (plan_command->parsed()) {
+    plan_options.threads = threads.value_or(1);
+    return plan(plan_options);
+  }
+  if (score_command->parsed()) {
+    return score(score_options);
+  }
+  if (bench_command->parsed()) {
+    return bench::run(bench_options);
   }
   run_options.lock_step = clock == "sync";
   return run(run_options);

@@ -25,6 +25,9 @@ planner::Areas areas_of(const std::vector<Polygon>& polygons) {
   return areas;
 }
 
+constexpr double kPaperRho = 0.002;
+constexpr double kFastRho = 0.02;
+
 std::string place(Point p) { return "(" + shortest(p.x_m) + ", " + shortest(p.y_m) + ")"; }
 
 std::string whole(double value) { return shortest(std::round(value)); }
@@ -122,11 +125,15 @@ planner::SearchProblem MissionInputs::problem() const {
     agent.preferred = areas_of(spec.preferred);
     IVO_CONTRACT(problem.agents.push_back(agent));  // the reader refuses more agents
   }
+  const bool paper = mission.planner.profile == SearchProfile::kPaper;
+  const bool mts = mission.planner.heuristic == SearchHeuristic::kMts;
   problem.colony = {
+      .profile = paper ? planner::Profile::kPaper : planner::Profile::kFast,
+      .heuristic = mts ? planner::Heuristic::kMts : planner::Heuristic::kTsp,
       .generations = mission.planner.generations,
       .ants = mission.planner.ants,
       .beta = mission.planner.beta,
-      .rho = mission.planner.rho,
+      .rho = mission.planner.rho.value_or(paper ? kPaperRho : kFastRho),
       .iteration_best = mission.planner.iteration_best,
       .ant = {.shortest_first = mission.planner.shortest_first, .max_unseen_mass = mission.planner.max_unseen_mass},
       .seed = mission.seed};

@@ -13,23 +13,19 @@
 #include "firmware/loop/scheduler.hpp"
 #include "firmware/tools/event_log.hpp"
 #include "firmware/tools/exit_status.hpp"
+#include "firmware/tools/planner_object.hpp"
 #include "firmware/tools/planner_setup.hpp"
 #include "firmware/tools/run_documents.hpp"
 #include "firmware/tools/run_options.hpp"
 #include "firmware/tools/run_terminal.hpp"
 #include "firmware/tools/run_world.hpp"
+#include "firmware/tools/terminal.hpp"
 
 namespace ivo::firmware {
 namespace {
 
 constexpr int kObserveEveryMs = 50;
 constexpr int kObserveEveryCycles = 25;
-
-// The largest object of the product: static, so that its pages are there from the start and belong to nobody's heap.
-planner::Planner& the_planner() {
-  static planner::Planner planner;
-  return planner;
-}
 
 std::atomic<ControlLoop*> running_loop{nullptr};
 static_assert(std::atomic<ControlLoop*>::is_always_lock_free, "a signal handler reads it");
@@ -50,20 +46,6 @@ void stop_on_signals(ControlLoop& loop) {
   }
   action.sa_handler = SIG_IGN;  // a reader of our output that goes away does not end a search
   (void)sigaction(SIGPIPE, &action, nullptr);
-}
-
-void complain(const Error& error) {
-  // A path may hold anything; the message stays one line.
-  std::string line = error.message;
-  std::replace_if(
-      line.begin(), line.end(), [](unsigned char c) { return c < 0x20; }, ' ');
-  (void)std::fflush(stdout);
-  (void)std::fprintf(stderr, "ivo: %s\n", line.c_str());
-}
-
-int refuse(const Error& error) {
-  complain(error);
-  return exit_status::kWrongInput;
 }
 
 SearchObject object_of(const Mission& mission, const planner::Planner& planner) {
@@ -221,7 +203,7 @@ class Run {
     }
     plan_shown_ = true;
     terminal_.show_plan(loop_.plan());
-    write("plan.json", plan_json(plan_document(view_, loop_.plan())));
+    write("plan.json", plan_json(plan_document(view_, loop_.plan(), {status.planning.generation})));
     write_picture(loop_.plan(), status, {RunEnd::kNoConsent, "the plans, before anybody consented"});
     if (write_failed_) {  // nobody agrees to what cannot be kept
       (void)loop_.command(OperatorCommand::kPlanNotKept);
@@ -318,7 +300,7 @@ int run(const RunOptions& given) {
   const SearchObject object = object_of(inputs.file.mission, planner);
   const auto loop = std::make_unique<ControlLoop>(setup_of(inputs, object), planner, world.value()->bus());
   stop_on_signals(*loop);
-  const RunView view{inputs, planner, object};
+  const RunView view{{inputs, planner}, object};
   Run the_run(options, view, *loop, *world.value(), std::move(log).value());
   the_run.to_the_end();
   const int status = the_run.write_and_tell();

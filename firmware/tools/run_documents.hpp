@@ -1,22 +1,18 @@
-// The documents of a run: plan.json, report.json and the picture, from what was read, planned and done.
+// The documents of a run: report.json and the picture, from what was read, planned and done.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "firmware/files/picture.hpp"
-#include "firmware/files/plan_file.hpp"
 #include "firmware/files/report_file.hpp"
 #include "firmware/loop/loop_status.hpp"
 #include "firmware/mission/search_object.hpp"
-#include "firmware/tools/planner_setup.hpp"
+#include "firmware/tools/plan_documents.hpp"
 
 namespace ivo::firmware {
 
 /// What a run is, in one place, for the documents and the terminal. All outlive it.
-struct RunView {
-  const MissionInputs& inputs;
-  const planner::Planner& planner;
+struct RunView : PlanView {
   const SearchObject& object;
 };
 
@@ -26,12 +22,9 @@ struct RunOutcome {
   std::string reason;
 };
 
-/// One line: what the team can expect of a plan.
-[[nodiscard]] std::string score_text(const RunView& run, const planner::PlanScore& score);
 /// While the agent's path lasted; 0 when it never set off.
 [[nodiscard]] double mean_speed_mps(const AgentTrack& track);
 [[nodiscard]] RunOutcome outcome_of(const RunView& run, const LoopStatus& status, bool stalled);
-[[nodiscard]] PlanDocument plan_document(const RunView& run, const planner::Plan& plan);
 /// `plan` may be null when there is none yet.
 [[nodiscard]] ReportDocument report_document(const RunView& run, const planner::Plan* plan, const LoopStatus& status,
                                              const RunOutcome& outcome);

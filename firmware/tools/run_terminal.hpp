@@ -1,11 +1,11 @@
 // The terminal of a run: what is going on, both plans, the question, the result. Outside the loop.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <string>
 
 #include "firmware/tools/run_documents.hpp"
+#include "firmware/tools/terminal.hpp"
 
 namespace ivo::firmware {
 
@@ -23,18 +23,12 @@ class RunTerminal {
                    std::uint64_t lapses);
   void show_file(const std::string& path) const;
   /// Ends the line that is drawn over itself.
-  void end_line();
+  void end_line() { line_.end(); }
 
  private:
-  [[nodiscard]] bool time_to_draw();
-  void overwrite(const std::string& line);
-
   const RunView& run_;
-  bool live_;  // standard output is a terminal
-  bool line_open_ = false;
-  int tenth_shown_ = -1;
+  LiveLine line_;
   double horizon_s_ = 0.0;
-  std::chrono::steady_clock::time_point drawn_{};
 };
 
 enum class Answer : std::uint8_t { kNone, kYes, kNo };

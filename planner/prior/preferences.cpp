@@ -28,6 +28,21 @@ Refusal check_areas(const Cells& cells, const SightTable& sight, const Preferred
   return {};
 }
 
+// Each to 1/M; who has nothing of its own searches p.
+void scale(const std::array<double, limits::kAgents>& sums, Belief& belief, AgentSet& left_without) noexcept {
+  for (int m = 0; m < belief.agents; ++m) {
+    const bool none = sums[index(m)] <= 0.0;
+    if (none) {
+      left_without = static_cast<AgentSet>(left_without | agent_bit(m));
+    }
+    const double scale = none ? 1.0 / belief.agents : 1.0 / (belief.agents * sums[index(m)]);
+    for (const Cell c : belief.cells_with_mass()) {
+      const double share = none ? belief.mass[index(c)] : belief.sub_mass[index(m)][index(c)];
+      belief.sub_mass[index(m)][index(c)] = share * scale;
+    }
+  }
+}
+
 }  // namespace
 
 Refusal normalise(const SightTable& sight, int cells, int agents, Belief& belief) noexcept {
@@ -102,18 +117,22 @@ Refusal divide(const Cells& cells, const SightTable& sight, const PreferredAreas
       sums[index(m)] += counts ? part : 0.0;
     }
   }
+  scale(sums, belief, left_without);
+  return {};
+}
+
+void deal(const SightTable& sight, Belief& belief, AgentSet& left_without) noexcept {
+  belief.has_sub_priors = true;
+  left_without = 0;
+  std::array<double, limits::kAgents> sums{};
   for (int m = 0; m < belief.agents; ++m) {
-    const bool none = sums[index(m)] <= 0.0;
-    if (none) {
-      left_without = static_cast<AgentSet>(left_without | agent_bit(m));
-    }
-    const double scale = none ? 1.0 / belief.agents : 1.0 / (belief.agents * sums[index(m)]);
-    for (const Cell c : belief.cells_with_mass()) {
-      const double share = none ? belief.mass[index(c)] : belief.sub_mass[index(m)][index(c)];
-      belief.sub_mass[index(m)][index(c)] = share * scale;
+    for (Cell c = 0; c < belief.cells; ++c) {
+      double& share = belief.sub_mass[index(m)][index(c)];
+      share = belief.mass[index(c)] > 0.0 && in(sight.observable_by(c), m) ? share : 0.0;
+      sums[index(m)] += share;
     }
   }
-  return {};
+  scale(sums, belief, left_without);
 }
 
 }  // namespace ivo::planner

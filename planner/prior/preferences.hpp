@@ -25,4 +25,8 @@ using PreferredAreas = StaticVector<Areas, limits::kAgents>;
 [[nodiscard]] Refusal divide(const Cells& cells, const SightTable& sight, const PreferredAreas& preferred,
                              Belief& belief, AgentSet& left_without) noexcept;
 
+/// Sub-priors that were given: belief.sub_mass as filled, one an agent, becomes what the agent can observe of it,
+/// scaled to 1/M. An agent left without mass gets p/M, and `left_without` says so. Cost: cells times agents.
+void deal(const SightTable& sight, Belief& belief, AgentSet& left_without) noexcept;
+
 }  // namespace ivo::planner

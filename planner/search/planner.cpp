@@ -56,7 +56,12 @@ Refusal Planner::prepare(const SearchProblem& problem) noexcept {
   }
   const double observable_m2 = belief_.mass_cell_count * cells_.cell_m() * cells_.cell_m();
   belief_.sub_prior_steps = step_of(kSubPriorHorizon * observable_m2 / swept_m2_a_second);
-  if (const Refusal refusal = divide(cells_, sight_, preferred, belief_, left_without_sub_prior_)) {
+  if (!problem.sub_priors.empty()) {
+    for (std::size_t m = 0; m < bodies.size(); ++m) {
+      fill_prior(cells_, problem.sub_priors[m], std::span<double>(belief_.sub_mass[m].data(), index(cells_.count())));
+    }
+    deal(sight_, belief_, left_without_sub_prior_);
+  } else if (const Refusal refusal = divide(cells_, sight_, preferred, belief_, left_without_sub_prior_)) {
     return refusal;
   }
   start_colony();
@@ -86,6 +91,8 @@ Progress Planner::progress() const noexcept {
           .has_plan = has_best_,
           .best = best_.score};
 }
+
+Bounds Planner::bounds(double /*unseen_mass*/) const noexcept { return {}; }
 
 int Planner::advance() noexcept {
   switch (phase_) {

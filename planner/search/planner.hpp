@@ -11,6 +11,7 @@
 #include "planner/prior/prior.hpp"
 #include "planner/refusal.hpp"
 #include "planner/search/ant.hpp"
+#include "planner/search/bounds.hpp"
 #include "planner/search/plan.hpp"
 #include "planner/world/cells.hpp"
 #include "planner/world/graph.hpp"
@@ -24,8 +25,18 @@ struct SearchAgent {
   Areas preferred;
 };
 
+enum class Profile : std::uint8_t {
+  kPaper,  ///< the paper's MAX-MIN ant system
+  kFast,   ///< the same with iterated improvement
+};
+
+/// eta of Eq. 2 (model.md, "Search (MMAS)").
+enum class Heuristic : std::uint8_t { kTsp, kMts };
+
 /// Symbols as in model.md, "Search (MMAS)"; alpha is 1.
 struct ColonyParameters {
+  Profile profile = Profile::kFast;
+  Heuristic heuristic = Heuristic::kTsp;
   int generations = 300;
   int ants = 10;
   int beta = 6;
@@ -37,12 +48,14 @@ struct ColonyParameters {
 
 /// Uniform (monostate), a Gaussian mixture, or an image.
 using PriorChoice = std::variant<std::monostate, std::span<const GaussianComponent>, GreyView>;
+using PriorChoices = StaticVector<PriorChoice, limits::kAgents>;
 
 struct SearchProblem {
   SegmentedMap map;
   double cell_m = 0.25;
   GraphParameters graph;
   PriorChoice prior;
+  PriorChoices sub_priors;  ///< one an agent, given; empty: from the agents' preferred areas
   StaticVector<SearchAgent, limits::kAgents> agents;
   ColonyParameters colony;
 };
@@ -78,6 +91,9 @@ class Planner {
   /// The best plan so far: complete plans by cost (EST with sub-priors, else ET), before incomplete ones by unseen
   /// mass. Cost: the copy of its waypoints.
   void best_plan(Plan& plan) const noexcept;
+
+  /// What no plan that leaves `unseen_mass` can have a smaller ET_c than (bounds.hpp).
+  [[nodiscard]] Bounds bounds(double unseen_mass) const noexcept;
 
   [[nodiscard]] const Cells& cells() const noexcept { return cells_; }
   [[nodiscard]] const Graph& graph() const noexcept { return graph_; }

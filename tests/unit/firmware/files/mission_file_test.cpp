@@ -69,7 +69,9 @@ TEST(MissionFile, ReadsEveryFieldAndTheDefaults) {
   EXPECT_TRUE(std::holds_alternative<UniformPrior>(m.prior));
   EXPECT_EQ(m.planner.cell_m, 0.5);
   EXPECT_EQ(m.planner.spacing_m, PlannerParameters{}.spacing_m);
-  EXPECT_EQ(m.planner.rho, PlannerParameters{}.rho);
+  EXPECT_FALSE(m.planner.rho.has_value());
+  EXPECT_EQ(m.planner.profile, SearchProfile::kFast);
+  EXPECT_EQ(m.planner.heuristic, SearchHeuristic::kTsp);
   ASSERT_EQ(m.agents.size(), 2U);
   EXPECT_EQ(m.agents[0].name, "IVO");
   EXPECT_EQ(m.agents[0].kind, AgentKind::kRobot);
@@ -109,11 +111,14 @@ TEST(MissionFile, ReadsEveryKindOfObjectAndPrior) {
 
 TEST(MissionFile, ReadsEveryPlannerParameter) {
   const auto file = mission_of(replaced(kMission, "cell_m = 0.5",
-                                        "cell_m = 0.1\nspacing_m = 1.5\nclearance_m = 0.2\ngenerations = 5\nants = 6\n"
+                                        "profile = 'paper'\nheuristic = 'mts'\ncell_m = 0.1\nspacing_m = "
+                                        "1.5\nclearance_m = 0.2\ngenerations = 5\nants = 6\n"
                                         "beta = 7\nrho = 0.08\nshortest_first = 0.9\niteration_best = 0.25\n"
                                         "max_unseen_mass = 0.01"));
   ASSERT_TRUE(file.ok()) << file.error().message;
   const PlannerParameters& p = file.value().mission.planner;
+  EXPECT_EQ(p.profile, SearchProfile::kPaper);
+  EXPECT_EQ(p.heuristic, SearchHeuristic::kMts);
   EXPECT_EQ(p.cell_m, 0.1);
   EXPECT_EQ(p.spacing_m, 1.5);
   EXPECT_EQ(p.clearance_m, 0.2);
@@ -156,6 +161,10 @@ TEST(MissionFile, RefusesValuesOutOfRange) {
   EXPECT_EQ(complaint("cell_m = 0.5", "beta = 13"), "m.toml:4: planner.beta: 13 is out of range; expected 0 to 12");
   EXPECT_EQ(complaint("cell_m = 0.5", "beta = 1.5"),
             "m.toml:4: planner.beta: 1.5 is a number; expected a whole number, 0 to 12");
+  EXPECT_EQ(complaint("cell_m = 0.5", "profile = 'quick'"),
+            "m.toml:4: planner.profile: \"quick\" is unknown; expected \"paper\" or \"fast\"");
+  EXPECT_EQ(complaint("cell_m = 0.5", "heuristic = 'tps'"),
+            "m.toml:4: planner.heuristic: \"tps\" is unknown; expected \"tsp\" or \"mts\"");
   EXPECT_EQ(complaint("cell_m = 0.5", "rho = nan"),
             "m.toml:4: planner.rho: nan is not a finite number; expected a number, 0.000001 to 1");
   EXPECT_EQ(complaint("[planner]", "seed = -1\n[planner]"),

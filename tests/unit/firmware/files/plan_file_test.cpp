@@ -17,12 +17,16 @@ PlanDocument plan() {
   plan.mission = "yard \"north\"";
   plan.map = "config/maps/courtyard.toml";
   plan.seed = std::numeric_limits<std::uint64_t>::max();
-  plan.profile = "onboard";
+  plan.profile = SearchProfile::kPaper;
+  plan.heuristic = SearchHeuristic::kMts;
+  plan.threads = 2;
+  plan.capacity = "onboard";
   plan.cell_m = 0.25;
   plan.spacing_m = 3.5;
   plan.nodes = 144;
   plan.generations_done = 400;
   plan.unobservable_share = 0.1;
+  plan.bounds = {65.5, 60.25, 70.0, 64.125, 0.125};
   plan.score = {81.25, 81.75, 1.0 / 3.0, 0.0139, 245.5, true};
   plan.agents = {{"IVO", AgentKind::kRobot, 0.35, 2.5, 42.0, 120.0, {{1.75, 1.75}, {0.1 + 0.2, 5.25}}},
                  {"Ana", AgentKind::kPerson, 0.5, 3.0, 1e-9, 0.0, {{39.25, 1.75}}}};
@@ -45,6 +49,14 @@ TEST(PlanFile, ReadsBackWhatItWroteToTheLastBit) {
   EXPECT_EQ(back.map, there.map);
   EXPECT_EQ(back.seed, there.seed);
   EXPECT_EQ(back.profile, there.profile);
+  EXPECT_EQ(back.heuristic, there.heuristic);
+  EXPECT_EQ(back.threads, there.threads);
+  EXPECT_EQ(back.capacity, there.capacity);
+  EXPECT_EQ(back.bounds.area_s, there.bounds.area_s);
+  EXPECT_EQ(back.bounds.area_strict_s, there.bounds.area_strict_s);
+  EXPECT_EQ(back.bounds.reach_s, there.bounds.reach_s);
+  EXPECT_EQ(back.bounds.reach_strict_s, there.bounds.reach_strict_s);
+  EXPECT_EQ(back.bounds.gap, there.bounds.gap);
   EXPECT_EQ(back.cell_m, there.cell_m);
   EXPECT_EQ(back.spacing_m, there.spacing_m);
   EXPECT_EQ(back.nodes, there.nodes);
@@ -75,11 +87,14 @@ TEST(PlanFile, WritesShortNumbersInAFixedOrder) {
   small.agents.pop_back();
   EXPECT_EQ(plan_json(small),
             "{\n"
-            "  \"format\": 1,\n"
+            "  \"format\": 2,\n"
             "  \"mission\": \"yard \\\"north\\\"\",\n"
             "  \"map\": \"config/maps/courtyard.toml\",\n"
             "  \"seed\": 7,\n"
-            "  \"profile\": \"onboard\",\n"
+            "  \"profile\": \"paper\",\n"
+            "  \"heuristic\": \"mts\",\n"
+            "  \"threads\": 2,\n"
+            "  \"capacity\": \"onboard\",\n"
             "  \"cell_m\": 0.25,\n"
             "  \"spacing_m\": 3.5,\n"
             "  \"nodes\": 144,\n"
@@ -88,6 +103,8 @@ TEST(PlanFile, WritesShortNumbersInAFixedOrder) {
             "  \"score\": {\"expected_time_s\":81.25,\"expected_time_continuous_s\":81.75,"
             "\"expected_sub_prior_time_s\":0.3333333333333333,\"unseen_mass\":0.0139,\"horizon_s\":245.5,"
             "\"complete\":true},\n"
+            "  \"bounds\": {\"area_s\":65.5,\"area_strict_s\":60.25,\"reach_s\":70.0,\"reach_strict_s\":64.125},\n"
+            "  \"gap\": 0.125,\n"
             "  \"agents\": [\n"
             "    {\"name\":\"IVO\",\"kind\":\"robot\",\"speed_mps\":0.35,\"sight_radius_m\":2.5,\"length_m\":42.0,"
             "\"duration_s\":120.0,\"waypoints_m\":[[1.75,1.75],[0.30000000000000004,5.25]]}\n"
@@ -109,15 +126,19 @@ TEST(PlanFile, RefusesWhatIsNoPlan) {
             folder.path("p.json") + ": not JSON; expected a plan");
   EXPECT_EQ(message_of(read_plan(folder.put("p.json", "[1]"))),
             folder.path("p.json") + ": is no object; expected what plan writes");
-  EXPECT_EQ(complaint("\"format\": 1", "\"format\": 2"),
-            "p.json: format: 2 is another version of this file's form; expected 1");
+  EXPECT_EQ(complaint("\"format\": 2", "\"format\": 1"),
+            "p.json: format: 1 is another version of this file's form; expected 2");
 }
 
 TEST(PlanFile, RefusesFieldsThatAreMissingOrOfTheWrongType) {
   EXPECT_EQ(complaint("\"cell_m\"", "\"cell_cm\""), "p.json: cell_m: missing; it must be given");
   EXPECT_EQ(complaint("\"seed\": 18446744073709551615", "\"seed\": -1"),
             "p.json: seed: is no count; expected a whole number, 0 to 18446744073709551615");
-  EXPECT_EQ(complaint("\"profile\": \"onboard\"", "\"profile\": 3"), "p.json: profile: is no text; expected text");
+  EXPECT_EQ(complaint("\"capacity\": \"onboard\"", "\"capacity\": 3"), "p.json: capacity: is no text; expected text");
+  EXPECT_EQ(complaint("\"profile\": \"paper\"", "\"profile\": \"onboard\""),
+            "p.json: profile: \"onboard\" is unknown; expected \"paper\" or \"fast\"");
+  EXPECT_EQ(complaint("\"gap\": 0.125", "\"gap\": \"x\""),
+            "p.json: gap: this will not do; expected a number, -1 to 1000000000");
   EXPECT_EQ(complaint("\"complete\":true", "\"complete\":1"),
             "p.json: score.complete: is no flag; expected true or false");
   EXPECT_EQ(complaint("\"unseen_mass\":0.0139", "\"unseen_mass\":1.5"),
@@ -138,16 +159,53 @@ TEST(PlanFile, RefusesAgentsAndWaypointsThatAreNone) {
             "p.json: agents: is no list; expected a list of at least one");
 }
 
+std::string paths_complaint(const std::string& text) {
+  const ScratchFolder folder;
+  return replaced(message_of(read_paths(folder.put("p.json", text))), folder.path() + "/", "");
+}
+
+TEST(PlanFile, ReadsThePathsOfAnyPlanAndTrustsNothingElse) {
+  const ScratchFolder folder;
+  const auto ours = read_paths(folder.put("p.json", plan_json(plan())));
+  ASSERT_TRUE(ours.ok()) << ours.error().message;
+  ASSERT_EQ(ours.value().size(), 2U);
+  EXPECT_EQ(ours.value()[0].agent, "IVO");
+  EXPECT_EQ(ours.value()[0].waypoints, plan().agents[0].waypoints);
+  const auto bare = read_paths(folder.put(
+      "p.json", R"({"format": "other", "score": 3, "agents": [{"waypoints_m": [[1, 2], [3.5, 4e0]], "kind": 7}]})"));
+  ASSERT_TRUE(bare.ok()) << bare.error().message;
+  EXPECT_FALSE(bare.value()[0].agent.has_value());
+  EXPECT_EQ(bare.value()[0].waypoints, (std::vector<Point>{{1, 2}, {3.5, 4}}));
+}
+
+TEST(PlanFile, RefusesPathsThatAreNone) {
+  EXPECT_EQ(paths_complaint("[]"), "p.json: is no object; expected { \"agents\": [...] }");
+  EXPECT_EQ(paths_complaint("{}"), "p.json: agents: missing; it must be given");
+  EXPECT_EQ(paths_complaint(R"({"agents": [{"name": "IVO"}]})"),
+            "p.json: agents[0].waypoints_m: missing; it must be given");
+  EXPECT_EQ(paths_complaint(R"({"agents": [7]})"), "p.json: agents[0].waypoints_m: missing; it must be given");
+  EXPECT_EQ(paths_complaint(R"({"agents": [{"name": 1, "waypoints_m": [[1, 2]]}]})"),
+            "p.json: agents[0].name: is no text; expected text");
+  EXPECT_EQ(paths_complaint(R"({"agents": [{"waypoints_m": [[1, 2], [1, null]]}]})"),
+            "p.json: agents[0].waypoints_m[1]: this will not do; expected a number, -1000000 to 1000000");
+  EXPECT_EQ(paths_complaint(R"({"agents": [{"waypoints_m": [[1, NaN]]}]})"), "p.json: not JSON; expected a plan");
+  EXPECT_EQ(paths_complaint(R"({"agents": [{"waypoints_m": [[1, 1e999]]}]})"),
+            "p.json: holds a number beyond all bounds; expected finite numbers");
+  EXPECT_EQ(paths_complaint(std::string(100'000, '[')), "p.json: nested deeper than 64 levels; expected a plan");
+}
+
 // Any cut of a plan and any one byte of it made another: refused or read, never a crash.
 TEST(PlanFile, WithstandsDamage) {
   const ScratchFolder folder;
   const std::string whole = plan_json(plan());
   for (std::size_t i = 0; i + 2 < whole.size(); i += 7) {
     EXPECT_FALSE(read_plan(folder.put("p.json", whole.substr(0, i))).ok()) << i;
+    EXPECT_FALSE(read_paths(folder.path("p.json")).ok()) << i;
     for (const char c : {'[', '"', '9', '\0'}) {
       std::string damaged = whole;
       damaged[i] = c;
       EXPECT_FALSE(message_of(read_plan(folder.put("p.json", damaged))).empty());
+      (void)read_paths(folder.path("p.json"));
     }
   }
 }
@@ -161,6 +219,7 @@ TEST(ReportFile, WritesAFindAndASearchWithoutOne) {
   report.finder = "Ana";
   report.object = Point{3.5, 4};
   report.score = ScoreDocument{81, 81.5, std::nullopt, 0.01, 200, true};
+  report.bounds = BoundsDocument{60, 55, 72, 66, 0.125};
   report.real_search_time_s = 43.25;
   report.agents = {{"IVO", AgentKind::kRobot, 60, ReportedTrack{15.5, 0.34, {1, 2}}}};
   const std::string found = report_json(report);
@@ -176,6 +235,8 @@ TEST(ReportFile, WritesAFindAndASearchWithoutOne) {
             "  \"real_search_time_s\": 43.25,\n"
             "  \"plan_score\": {\"expected_time_s\":81.0,\"expected_time_continuous_s\":81.5,"
             "\"expected_sub_prior_time_s\":null,\"unseen_mass\":0.01,\"horizon_s\":200.0,\"complete\":true},\n"
+            "  \"plan_bounds\": {\"area_s\":60.0,\"area_strict_s\":55.0,\"reach_s\":72.0,\"reach_strict_s\":66.0},\n"
+            "  \"plan_gap\": 0.125,\n"
             "  \"agents\": [\n"
             "    {\"name\":\"IVO\",\"kind\":\"robot\",\"planned_length_m\":60.0,\"distance_m\":15.5,"
             "\"mean_speed_mps\":0.34,\"final_position_m\":[1.0,2.0]}\n"

@@ -1,0 +1,58 @@
+#include "firmware/tools/bench/bench.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#include "config/base/contract.hpp"
+
+namespace ivo::firmware::bench {
+namespace {
+
+constexpr std::array<Bench, 4> kBenches = {{
+    {"table1", "the paper's Table I: eight rows, both heuristics, beside the paper's figures", table1},
+    {"speed", "400 generations of 10 ants in the paper's profile, tables apart", speed},
+    {"quality", "the fast profile's expected time after 0.1, 1 and 10 s, beside the bound", quality},
+    {"scale", "the cost of a generation from 100 nodes up, and real maps and priors", scale},
+}};
+
+double worst_of(const std::vector<double>& values, const std::optional<Target>& target) {
+  const bool least = target && target->sense == Sense::kAtLeast;
+  return least ? *std::min_element(values.begin(), values.end()) : *std::max_element(values.begin(), values.end());
+}
+
+}  // namespace
+
+std::span<const Bench> benches() { return kBenches; }
+
+void Sheet::add(const std::string& case_name, const std::string& figure, double value, const std::string& unit,
+                std::optional<Target> target) {
+  std::optional<bool> holds;
+  if (target) {
+    holds = target->sense == Sense::kAtMost ? value <= target->value : value >= target->value;
+  }
+  records_.push_back({bench_, case_name, figure, value, unit, target, holds});
+}
+
+void Sheet::add_median(const std::string& case_name, const std::string& figure, std::vector<double> values,
+                       const std::string& unit, std::optional<Target> target) {
+  IVO_CONTRACT(!values.empty());
+  std::sort(values.begin(), values.end());
+  const std::size_t n = values.size();
+  add(case_name, figure, 0.5 * (values[(n - 1) / 2] + values[n / 2]), unit, target);
+  add(case_name, figure + ", worst", worst_of(values, target), unit);
+}
+
+void Sheet::add_mean(const std::string& case_name, const std::string& figure, const std::vector<double>& values,
+                     const std::string& unit, std::optional<Target> target) {
+  IVO_CONTRACT(!values.empty());
+  add(case_name, figure, std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size()), unit,
+      target);
+  add(case_name, figure + ", worst", worst_of(values, target), unit);
+}
+
+void Sheet::skip(const std::string& case_name, const std::string& reason) {
+  records_.push_back({bench_, case_name, "skipped: " + reason, std::nullopt, "", std::nullopt, std::nullopt});
+}
+
+}  // namespace ivo::firmware::bench

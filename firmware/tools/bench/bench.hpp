@@ -1,0 +1,72 @@
+// `ivo bench`: figures of the search core, each bench within 8 minutes on 2 cores. Figures that are compared are taken
+// in one run; the worst stands beside the median or the mean.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace ivo::firmware::bench {
+
+enum class Sense : std::uint8_t { kAtMost, kAtLeast };
+
+struct Target {
+  double value = 0.0;
+  Sense sense = Sense::kAtMost;
+};
+
+/// One figure of one case.
+struct Record {
+  std::string bench;
+  std::string case_name;
+  std::string figure;
+  std::optional<double> value;  ///< none: skipped, and `figure` says why
+  std::string unit;
+  std::optional<Target> target;
+  std::optional<bool> holds;  ///< whether the value meets its target; none without one
+};
+
+struct Options {
+  bool quick = false;  ///< the shortened version, for tests
+  std::string data;    ///< folder of maps and priors that are not part of the product; empty: none
+};
+
+/// What a bench writes its figures to.
+class Sheet {
+ public:
+  explicit Sheet(std::string bench) : bench_(std::move(bench)) {}
+
+  void add(const std::string& case_name, const std::string& figure, double value, const std::string& unit,
+           std::optional<Target> target = std::nullopt);
+  /// Median and worst: "FIGURE", "FIGURE, worst". A target is for the median. At least one value.
+  void add_median(const std::string& case_name, const std::string& figure, std::vector<double> values,
+                  const std::string& unit, std::optional<Target> target = std::nullopt);
+  /// Mean and worst, as add_median.
+  void add_mean(const std::string& case_name, const std::string& figure, const std::vector<double>& values,
+                const std::string& unit, std::optional<Target> target = std::nullopt);
+  void skip(const std::string& case_name, const std::string& reason);
+
+  [[nodiscard]] const std::vector<Record>& records() const noexcept { return records_; }
+
+ private:
+  std::string bench_;
+  std::vector<Record> records_;
+};
+
+struct Bench {
+  const char* name;
+  const char* about;  ///< one line
+  void (*run)(const Options& options, Sheet& sheet);
+};
+
+/// In the order in which `ivo bench all` runs them.
+[[nodiscard]] std::span<const Bench> benches();
+
+void table1(const Options& options, Sheet& sheet);
+void speed(const Options& options, Sheet& sheet);
+void quality(const Options& options, Sheet& sheet);
+void scale(const Options& options, Sheet& sheet);
+
+}  // namespace ivo::firmware::bench

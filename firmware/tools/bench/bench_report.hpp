@@ -1,0 +1,18 @@
+// A bench's records as a table for people and as JSON for programs.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "firmware/tools/bench/bench.hpp"
+
+namespace ivo::firmware::bench {
+
+/// A case a row, a figure a column, aligned; cases with a figure in common share a table. A figure with a target stands
+/// with it and with whether it holds. Ends with a line break.
+[[nodiscard]] std::string table_of(std::span<const Record> records);
+
+/// A list with a record a figure, as config/schemas/bench.schema.json says.
+[[nodiscard]] std::string json_of(std::span<const Record> records);
+
+}  // namespace ivo::firmware::bench

@@ -1,0 +1,11 @@
+// Ctrl-C and its relatives as a question, for commands that move nothing.
+#pragma once
+
+namespace ivo::firmware {
+
+/// From now on SIGINT, SIGTERM and SIGHUP only set what stop_asked() answers, and a reader of our output that goes away
+/// ends nothing.
+void stop_on_signals();
+[[nodiscard]] bool stop_asked() noexcept;
+
+}  // namespace ivo::firmware

@@ -1,0 +1,82 @@
+#include "firmware/tools/bench/bench_report.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace ivo::firmware::bench {
+namespace {
+
+Sheet sheet() {
+  Sheet sheet("speed");
+  sheet.add_median("M1/U", "search", {0.5, 0.25, 0.125}, "s", Target{0.25});
+  sheet.add("M2/U", "search", 2.0, "s", Target{3.0, Sense::kAtLeast});
+  sheet.add("M2/U", "ratio", 1234.5, "");
+  sheet.skip("Dubai", "no --data folder");
+  return sheet;
+}
+
+TEST(BenchSheet, PutsTheWorstBesideMedianAndMean) {
+  Sheet sheet("x");
+  sheet.add_median("a", "t", {4, 1, 3, 2}, "s");
+  sheet.add_mean("a", "u", {1, 2, 6}, "s");
+  sheet.add_median("a", "v", {1, 2, 6}, "", Target{2, Sense::kAtLeast});
+  const auto& r = sheet.records();
+  ASSERT_EQ(r.size(), 6U);
+  EXPECT_EQ(*r[0].value, 2.5);
+  EXPECT_EQ(r[1].figure, "t, worst");
+  EXPECT_EQ(*r[1].value, 4);
+  EXPECT_EQ(*r[2].value, 3);
+  EXPECT_EQ(*r[3].value, 6);
+  EXPECT_EQ(*r[5].value, 1) << "where more is better the least is the worst";
+}
+
+TEST(BenchSheet, HoldsATargetWhenItIsJustMet) {
+  Sheet sheet("x");
+  sheet.add("a", "t", 2.0, "s", Target{2.0});
+  sheet.add("a", "t", 2.1, "s", Target{2.0});
+  sheet.add("a", "t", 2.0, "s", Target{2.0, Sense::kAtLeast});
+  sheet.add("a", "t", 1.9, "s", Target{2.0, Sense::kAtLeast});
+  sheet.add("a", "t", 1.9, "s");
+  const auto& r = sheet.records();
+  EXPECT_EQ(r[0].holds, true);
+  EXPECT_EQ(r[1].holds, false);
+  EXPECT_EQ(r[2].holds, true);
+  EXPECT_EQ(r[3].holds, false);
+  EXPECT_EQ(r[4].holds, std::nullopt);
+}
+
+TEST(BenchReport, AlignsCasesThatShareAFigureInOneTable) {
+  EXPECT_EQ(table_of(sheet().records()),
+            "speed               search [s]  search, worst [s]  ratio\n"
+            "M1/U   0.250 (<= 0.250, holds)              0.500\n"
+            "M2/U    2.00 (>= 3.00, MISSED)                      1234\n"
+            "Dubai: skipped: no --data folder\n");
+}
+
+TEST(BenchReport, WritesARecordAFigureForPrograms) {
+  EXPECT_EQ(
+      json_of(sheet().records()),
+      "[\n"
+      R"(  {"bench":"speed","case":"M1/U","figure":"search","value":0.25,"unit":"s","target":0.25,"holds":true},)"
+      "\n"
+      R"(  {"bench":"speed","case":"M1/U","figure":"search, worst","value":0.5,"unit":"s","target":null,"holds":null},)"
+      "\n"
+      R"(  {"bench":"speed","case":"M2/U","figure":"search","value":2.0,"unit":"s","target":3.0,"holds":false},)"
+      "\n"
+      R"(  {"bench":"speed","case":"M2/U","figure":"ratio","value":1234.5,"unit":"","target":null,"holds":null},)"
+      "\n"
+      R"(  {"bench":"speed","case":"Dubai","figure":"skipped: no --data folder","value":null,"unit":"","target":null,"holds":null})"
+      "\n]\n");
+}
+
+TEST(Benches, HaveNamesOfTheirOwn) {
+  std::set<std::string> names;
+  for (const Bench& bench : benches()) {
+    EXPECT_TRUE(names.insert(bench.name).second) << bench.name;
+    EXPECT_NE(std::string(bench.name), "all");
+  }
+}
+
+}  // namespace
+}  // namespace ivo::firmware::bench
