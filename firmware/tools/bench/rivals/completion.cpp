@@ -10,7 +10,7 @@ namespace ivo::firmware::rivals {
 
 Waypoints completed(const RivalProblem& problem, const Waypoints& waypoints) {
   Seen seen = look_along(problem, waypoints, 1);
-  if (seen.score.complete) {
+  if (planner::is_complete(seen.unseen_mass, problem.search.colony.ant.max_unseen_mass)) {
     return waypoints;
   }
   std::vector<planner::Node> at;

@@ -222,9 +222,8 @@ RivalPlan plan_like_a_lawnmower(const RivalProblem& problem, Effort effort, std:
   const auto attempt = [&](const Setting& setting) {
     ++tries;
     const Waypoints waypoints = lawnmower.plan(setting);
-    const planner::PlanScore about = look_along(problem, waypoints, kStride).score;
-    const double about_s =
-        about.expected_time_continuous_s + std::max(0.0, about.unseen_mass - most_unseen) * about.horizon_s;
+    const Seen about = look_along(problem, waypoints, kStride);
+    const double about_s = about.expected_time_s + std::max(0.0, about.unseen_mass - most_unseen) * about.horizon_s;
     if (about_s > best_s * kMaybeBest) {
       return;
     }

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "planner/search/expected_time.hpp"
 #include "planner/world/visibility.hpp"
 
 namespace ivo::firmware::rivals {
@@ -15,7 +14,7 @@ Seen look_along(const RivalProblem& problem, const Waypoints& waypoints, int str
   constexpr double kNever = std::numeric_limits<double>::infinity();
   const planner::Cells& cells = problem.prepared.cells();
   std::vector<double> first_s(index(cells.count()), kNever);
-  Seen seen{CellSet(problem.coverage.words(), 0), std::vector<double>(waypoints.size(), 0.0), {}};
+  Seen seen{CellSet(problem.coverage.words(), 0), std::vector<double>(waypoints.size(), 0.0)};
   for (std::size_t m = 0; m < waypoints.size(); ++m) {
     const planner::SearchAgent& agent = problem.search.agents[m];
     double& time_s = seen.times_s[m];
@@ -37,8 +36,6 @@ Seen look_along(const RivalProblem& problem, const Waypoints& waypoints, int str
     }
   }
   double mass_seconds = 0.0;
-  double mass_steps = 0.0;
-  double found = 0.0;
   for (const Cell c : problem.prepared.belief().cells_with_mass()) {
     const double at_s = first_s[index(c)];
     if (at_s == kNever) {
@@ -46,20 +43,23 @@ Seen look_along(const RivalProblem& problem, const Waypoints& waypoints, int str
     }
     const double mass = problem.prepared.belief().mass[index(c)];
     seen.cells[index(c) / 64] |= std::uint64_t{1} << (index(c) % 64);
-    found += mass;
+    seen.unseen_mass -= mass;
     mass_seconds += mass * at_s;
-    mass_steps += mass * (std::max(planner::step_of(at_s), 1) - 1);
-    seen.score.horizon_s = std::max(seen.score.horizon_s, at_s);
+    seen.horizon_s = std::max(seen.horizon_s, at_s);
   }
-  seen.score.unseen_mass = std::max(0.0, 1.0 - found);
-  seen.score.complete = planner::is_complete(seen.score.unseen_mass, problem.search.colony.ant.max_unseen_mass);
-  seen.score.expected_time_continuous_s = mass_seconds + seen.score.unseen_mass * seen.score.horizon_s;
-  seen.score.expected_time_s = mass_steps + seen.score.unseen_mass * planner::step_of(seen.score.horizon_s);
+  seen.unseen_mass = std::max(0.0, seen.unseen_mass);
+  seen.expected_time_s = mass_seconds + seen.unseen_mass * seen.horizon_s;
   return seen;
 }
 
 planner::PlanScore score(const RivalProblem& problem, const Waypoints& waypoints) {
-  return look_along(problem, waypoints, 1).score;
+  StaticVector<planner::WaypointPath, limits::kAgents> paths;
+  for (std::size_t m = 0; m < waypoints.size(); ++m) {
+    const planner::SearchAgent& agent = problem.search.agents[m];
+    (void)paths.push_back({waypoints[m], agent.speed_mps, agent.sight_radius_m});
+  }
+  return problem.scorer.score(problem.prepared.cells(), problem.prepared.belief(), paths.span(),
+                              problem.search.colony.ant.max_unseen_mass);
 }
 
 }  // namespace ivo::firmware::rivals

@@ -11,8 +11,8 @@ namespace ivo::firmware::rivals {
 
 std::span<const NamedRival> all() {
   static constexpr std::array<NamedRival, 4> kAll = {{{"greedy one step", plan_greedily, false},
-                                                      {"receding horizon", plan_with_receding_horizon, true},
-                                                      {"lawnmower", plan_like_a_lawnmower, true},
+                                                      {"receding horizon", plan_with_receding_horizon, false},
+                                                      {"lawnmower", plan_like_a_lawnmower, false},
                                                       {"rollout tree search", plan_by_rollouts, true}}};
   return kAll;
 }

@@ -9,6 +9,7 @@
 
 #include "firmware/tools/bench/rivals/coverage.hpp"
 #include "firmware/tools/bench/rivals/effort.hpp"
+#include "planner/search/path_score.hpp"
 #include "planner/search/planner.hpp"
 
 namespace ivo::firmware::rivals {
@@ -17,7 +18,8 @@ namespace ivo::firmware::rivals {
 struct RivalProblem {
   const planner::Planner& prepared;  ///< prepared for `search`
   const planner::SearchProblem& search;
-  const Coverage& coverage;  ///< of `prepared`
+  const Coverage& coverage;     ///< of `prepared`
+  planner::PathScorer& scorer;  ///< as `ivo score` has it
 };
 
 /// Waypoints of each agent, the first its start.
@@ -35,7 +37,7 @@ using Rival = RivalPlan (*)(const RivalProblem&, Effort, std::uint64_t seed);
 struct NamedRival {
   const char* name;
   Rival plan;
-  bool takes_its_time;  ///< false: as long as one plan takes, whatever it is given
+  bool draws;  ///< its plan depends on the seed
 };
 
 /// Greedy, receding horizon, lawnmower, rollout tree search.

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <random>
 
-#include "tests/support/paper_profile.hpp"
 #include "tests/support/shared_planner.hpp"
 
 namespace ivo::planner {
@@ -46,7 +45,7 @@ TEST(DegenerateSearch, IsRefusedOrPlannedAndNeverCrashesNorHangs) {
     test::DegenerateSearch search(random);
     const SearchProblem& problem = search.problem();
     if (draw % 2 == 0) {
-      test::use_paper_profile(search.problem().colony);
+      search.problem().colony.profile = Profile::kPaper;
     }
     if (const Refusal refusal = planner.prepare(problem)) {
       ++refused[static_cast<std::size_t>(refusal.code)];

@@ -6,7 +6,6 @@
 #include <random>
 
 #include "tests/support/m1.hpp"
-#include "tests/support/paper_profile.hpp"
 #include "tests/support/random_search.hpp"
 #include "tests/support/shared_planner.hpp"
 
@@ -43,7 +42,7 @@ TEST(PaperColony, MakesTheNaivePlannersPlanOnRandomSearches) {
   for (int draw = 0; searches < 40; ++draw) {
     ASSERT_LT(draw, 600);
     test::RandomSearch search(random);
-    test::use_paper_profile(search.problem().colony);
+    search.problem().colony.profile = Profile::kPaper;
     if (planner.prepare(search.problem())) {
       continue;
     }
@@ -66,7 +65,7 @@ TEST(PaperColony, MakesTheNaivePlannersPlanOnAShortM1WithAndWithoutSubPriors) {
     test::M1 m1(6);
     m1.problem().cell_m = 0.5;
     m1.problem().colony.ants = 3;
-    test::use_paper_profile(m1.problem().colony);
+    m1.problem().colony.profile = Profile::kPaper;
     if (preferences) {
       ASSERT_TRUE(m1.problem().agents[1].preferred.push_back(test::rectangle(0, 20, 40, 40)));
     }

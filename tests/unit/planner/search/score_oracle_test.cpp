@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "tests/support/naive_evaluator.hpp"
-#include "tests/support/paper_profile.hpp"
 #include "tests/support/random_search.hpp"
 #include "tests/support/shared_planner.hpp"
 
@@ -62,7 +61,7 @@ TEST(PlanScore, AgreesWithTheNaiveEvaluatorOnRandomSearches) {
       continue;
     }
     if (++searches % 2 == 0) {
-      test::use_paper_profile(search.problem().colony);
+      search.problem().colony.profile = Profile::kPaper;
       ASSERT_FALSE(planner.prepare(search.problem()));
     }
     SCOPED_TRACE("draw " + std::to_string(draw));
