@@ -1,12 +1,13 @@
-// What paths are worth, the long way: the whole map carried through Eq. 4 to 8 and Eq. 10 (team reading) step by step,
-// at the sight points of model.md. Slow and simple; shares nothing with the planner's evaluator but what a cell and a
-// line of sight are.
+// What paths are worth, the long way: the whole map carried through Eq. 4 to 8 and Eq. 10 step by step, at the sight
+// points of model.md ("Sensing and expected time", "Sub-priors"). Slow and simple; shares nothing with the planner's
+// evaluator but what a cell and a line of sight are.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "planner/search/plan.hpp"
@@ -20,12 +21,19 @@ struct NaivePath {
   double sight_radius_m = 0.0;
 };
 
+/// Whose observations deplete a sub-prior (model.md, "Sub-priors").
+enum class SubPriorReading : std::uint8_t {
+  kTeam,  ///< anybody's; found is what w of Eq. 5 sees on its own
+  kOwn,   ///< its agent's alone, whatever the others have seen
+};
+
 /// Maps have one value a cell. Without sub-priors there is no EST.
 struct NaiveMission {
   const planner::Cells& cells;
   std::vector<double> prior;
   std::vector<std::vector<double>> sub_priors;
-  int sub_prior_steps = 0;
+  int sub_prior_steps = 0;  ///< K
+  SubPriorReading reading = SubPriorReading::kTeam;
 };
 
 class NaiveEvaluator {
@@ -117,13 +125,16 @@ class NaiveEvaluator {
     horizon_s_ = std::max(horizon_s_, time_s);
   }
 
-  // Lowest-numbered agent that sees each cell in step k (Eq. 5), -1 where nobody does.
-  [[nodiscard]] std::vector<int> seers(int step) const {
+  // Lowest-numbered agent that sees each cell in step k (Eq. 5), -1 where nobody does; of all agents, or `alone`.
+  [[nodiscard]] std::vector<int> seers(int step, int alone = -1) const {
     std::vector<int> who(mission_.prior.size(), -1);
     for (const Look& look : looks_) {
+      if (look.step != step || (alone >= 0 && look.agent != alone)) {
+        continue;
+      }
       for (const planner::Cell c : look.seen) {
         int& w = who[static_cast<std::size_t>(c)];
-        w = look.step == step && (w < 0 || look.agent < w) ? look.agent : w;
+        w = w < 0 || look.agent < w ? look.agent : w;
       }
     }
     return who;
@@ -153,25 +164,42 @@ class NaiveEvaluator {
     return expected_s;
   }
 
-  // Eq. 10, team reading: what w sees is found on its own sub-prior and gone from all.
+  // Eq. 10.
   [[nodiscard]] double expected_sub_prior_time_s() const {
     std::vector<std::vector<double>> left = mission_.sub_priors;
     double found = 0.0;
     double expected_s = 0.0;
     for (int k = 0; k <= mission_.sub_prior_steps; ++k) {
-      const std::vector<int> who = seers(k);
-      for (std::size_t c = 0; c < who.size(); ++c) {
-        if (who[c] < 0) {
-          continue;
-        }
+      found += mission_.reading == SubPriorReading::kTeam ? found_by_the_team(k, left) : found_on_their_own(k, left);
+      expected_s += k >= 1 ? (1.0 - found) * kStep : 0.0;
+    }
+    return expected_s;
+  }
+
+  // What w sees is found on its own sub-prior and gone from all.
+  [[nodiscard]] double found_by_the_team(int step, std::vector<std::vector<double>>& left) const {
+    const std::vector<int> who = seers(step);
+    double found = 0.0;
+    for (std::size_t c = 0; c < who.size(); ++c) {
+      if (who[c] >= 0) {
         found += left[static_cast<std::size_t>(who[c])][c];
         for (std::vector<double>& sub_prior : left) {
           sub_prior[c] = 0.0;
         }
       }
-      expected_s += k >= 1 ? (1.0 - found) * kStep : 0.0;
     }
-    return expected_s;
+    return found;
+  }
+
+  [[nodiscard]] double found_on_their_own(int step, std::vector<std::vector<double>>& left) const {
+    double found = 0.0;
+    for (std::size_t m = 0; m < left.size(); ++m) {
+      const std::vector<int> who = seers(step, static_cast<int>(m));
+      for (std::size_t c = 0; c < who.size(); ++c) {
+        found += who[c] >= 0 ? std::exchange(left[m][c], 0.0) : 0.0;
+      }
+    }
+    return found;
   }
 
   // ET_c: 1 - P(t) from look to look up to the horizon.

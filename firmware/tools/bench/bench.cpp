@@ -9,10 +9,11 @@
 namespace ivo::firmware::bench {
 namespace {
 
-constexpr std::array<Bench, 4> kBenches = {{
+constexpr std::array<Bench, 5> kBenches = {{
     {"table1", "the paper's Table I: eight rows, both heuristics, beside the paper's figures", table1},
     {"speed", "400 generations of 10 ants in the paper's profile, tables apart", speed},
     {"quality", "the fast profile's expected time after 0.1, 1 and 10 s, beside the bound", quality},
+    {"compare", "four other planners on the same scenes in the same time", compare},
     {"scale", "the cost of a generation from 100 nodes up, and real maps and priors", scale},
 }};
 

@@ -69,5 +69,6 @@ void table1(const Options& options, Sheet& sheet);
 void speed(const Options& options, Sheet& sheet);
 void quality(const Options& options, Sheet& sheet);
 void scale(const Options& options, Sheet& sheet);
+void compare(const Options& options, Sheet& sheet);
 
 }  // namespace ivo::firmware::bench

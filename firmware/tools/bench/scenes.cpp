@@ -10,6 +10,7 @@
 #include "firmware/files/map_file.hpp"
 #include "firmware/files/png_file.hpp"
 #include "firmware/tools/bench/walkable.hpp"
+#include "firmware/tools/planner_setup.hpp"
 
 namespace ivo::firmware::bench {
 namespace {
@@ -117,6 +118,25 @@ Result<Scene> paper_scene(PaperMap map, PaperPrior prior, double spacing_m) {
       problem.prior = both;
       problem.sub_priors = planner::DealtComponents{scene.agent_of_gaussian};
       break;
+  }
+  return scene;
+}
+
+Result<Scene> courtyard_scene() {
+  Result<MissionInputs> read = read_inputs(shipped("config/missions/courtyard.toml"));
+  if (!read) {
+    return read.error();
+  }
+  MissionInputs inputs = std::move(read).value();
+  Scene scene;
+  scene.name = "courtyard";
+  scene.problem = inputs.problem();
+  scene.pixels = std::move(inputs.map.pixels);
+  scene.problem.map.pixels = scene.pixels;
+  scene.gaussians = std::move(inputs.gaussians);
+  scene.problem.prior = std::span<const planner::GaussianComponent>(scene.gaussians);
+  for (planner::SearchAgent& agent : scene.problem.agents) {
+    agent.preferred.clear();
   }
   return scene;
 }

@@ -46,6 +46,9 @@ enum class PaperPrior : std::uint8_t {
 /// "M1/U/S". Cells of 0.25 m. M2 is the shipped reconstruction and is refused where that is not found.
 [[nodiscard]] Result<Scene> paper_scene(PaperMap map, PaperPrior prior, double spacing_m);
 
+/// The shipped courtyard mission without its preferred areas.
+[[nodiscard]] Result<Scene> courtyard_scene();
+
 /// A Dubai mask, `folder`/dubai/tile1_1.png at 0.4 m a pixel and a cell, uniform prior: two agents
 /// near the middle of the largest place that they can walk in.
 [[nodiscard]] Result<Scene> dubai_scene(const std::string& folder, double spacing_m);

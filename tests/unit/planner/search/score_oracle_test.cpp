@@ -1,6 +1,7 @@
 // The planner's scores against an evaluator that carries the whole map step by step.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "tests/support/naive_evaluator.hpp"
@@ -15,7 +16,7 @@ constexpr double kAgreement = 1e-9;
 test::NaiveEvaluator naive(const Planner& planner, const SearchProblem& problem, const Plan& plan) {
   const Belief& belief = planner.belief();
   const auto cells = planner.cells().count();
-  test::NaiveMission mission{planner.cells(), {belief.mass.begin(), belief.mass.begin() + cells}, {}, 0};
+  test::NaiveMission mission{planner.cells(), {belief.mass.begin(), belief.mass.begin() + cells}, {}};
   std::vector<test::NaivePath> paths;
   for (std::size_t m = 0; m < problem.agents.size(); ++m) {
     paths.push_back({plan.paths[m].waypoints.span(), problem.agents[m].speed_mps, problem.agents[m].sight_radius_m});
@@ -49,14 +50,20 @@ TEST(PlanScore, AgreesWithTheNaiveEvaluatorOnRandomSearches) {
   int searches = 0;
   int with_sub_priors = 0;
   int incomplete = 0;
-  std::array<int, 4> of_agents{};
+  int with_restricted_areas = 0;
+  int with_stairs_before_a_robot = 0;
+  int from_images = 0;
+  std::array<int, limits::kAgents + 1> of_agents{};
   for (int draw = 0; searches < 60; ++draw) {
     ASSERT_LT(draw, 600);
     test::RandomSearch search(random);
     if (planner.prepare(search.problem())) {
       continue;
     }
-    ++searches;
+    if (++searches % 2 == 0) {
+      search.problem().colony.profile = Profile::kPaper;
+      ASSERT_FALSE(planner.prepare(search.problem()));
+    }
     SCOPED_TRACE("draw " + std::to_string(draw));
     // Looked at three times: as soon as there is a plan, cut short somewhere, and at the end.
     while (!planner.step({50}).has_plan) {
@@ -70,12 +77,27 @@ TEST(PlanScore, AgreesWithTheNaiveEvaluatorOnRandomSearches) {
     expect_agreement(planner, search.problem(), last);
     with_sub_priors += planner.belief().has_sub_priors ? 1 : 0;
     incomplete += last.score.complete ? 0 : 1;
-    ++of_agents[search.problem().agents.size()];
+    const SearchProblem& problem = search.problem();
+    ++of_agents[problem.agents.size()];
+    with_restricted_areas += std::any_of(problem.agents.begin(), problem.agents.end(),
+                                         [](const SearchAgent& agent) { return !agent.body.restricted.empty(); })
+                                 ? 1
+                                 : 0;
+    with_stairs_before_a_robot +=
+        std::count(problem.map.pixels.begin(), problem.map.pixels.end(), SemanticClass::kStairs) > 0 &&
+                std::any_of(problem.agents.begin(), problem.agents.end(),
+                            [](const SearchAgent& agent) { return agent.body.kind == AgentKind::kRobot; })
+            ? 1
+            : 0;
+    from_images += std::holds_alternative<GreyView>(problem.prior) ? 1 : 0;
     ASSERT_FALSE(HasFailure());
   }
   EXPECT_GT(with_sub_priors, 10);
   EXPECT_GT(incomplete, 3);
-  for (int agents = 1; agents <= 3; ++agents) {
+  EXPECT_GT(with_restricted_areas, 10);
+  EXPECT_GT(with_stairs_before_a_robot, 10);
+  EXPECT_GT(from_images, 5);
+  for (int agents = 1; agents <= limits::kAgents && agents <= 4; ++agents) {
     EXPECT_GT(of_agents[static_cast<std::size_t>(agents)], 5);
   }
 }
