@@ -25,8 +25,9 @@ class TourScorer {
   [[nodiscard]] bool done() const noexcept { return phase_ == Phase::kDone; }
 
  private:
-  enum class Phase : std::uint8_t { kReplay, kSum, kDone };
+  enum class Phase : std::uint8_t { kClear, kReplay, kSum, kDone };
 
+  int clear(int rows) noexcept;
   int replay(int rows) noexcept;
   int sum(int rows) noexcept;
   void begin_agent(int agent) noexcept;
