@@ -12,21 +12,30 @@ struct Micro {
   static constexpr int kNodes = 256;
   static constexpr int kAgents = 2;
   static constexpr int kCells = 65'536;
-  static constexpr int kSightEvents = 2'500'000;
+  static constexpr int kSightWords = 700'000;
+  static constexpr int kSwaths = 30'000;
+  static constexpr int kSightEvents = 500'000;
+  static constexpr std::size_t kPlannerBytes = std::size_t{16} << 20U;
 };
 struct Onboard {
   static constexpr const char* kName = "onboard";
   static constexpr int kNodes = 4'096;
   static constexpr int kAgents = 4;
   static constexpr int kCells = 1'048'576;
-  static constexpr int kSightEvents = 32'000'000;
+  static constexpr int kSightWords = 7'400'000;
+  static constexpr int kSwaths = 300'000;
+  static constexpr int kSightEvents = 4'500'000;
+  static constexpr std::size_t kPlannerBytes = std::size_t{256} << 20U;
 };
 struct Desktop {
   static constexpr const char* kName = "desktop";
   static constexpr int kNodes = 16'384;
   static constexpr int kAgents = 8;
   static constexpr int kCells = 4'194'304;
-  static constexpr int kSightEvents = 256'000'000;
+  static constexpr int kSightWords = 64'000'000;
+  static constexpr int kSwaths = 2'600'000;
+  static constexpr int kSightEvents = 48'000'000;
+  static constexpr std::size_t kPlannerBytes = std::size_t{2048} << 20U;
 };
 
 #ifndef IVO_PLANNER_PROFILE
@@ -37,7 +46,10 @@ using Planner = IVO_PLANNER_PROFILE;
 inline constexpr int kNodes = Planner::kNodes;
 inline constexpr int kAgents = Planner::kAgents;
 inline constexpr int kCells = Planner::kCells;
-inline constexpr int kSightEvents = Planner::kSightEvents;  ///< cells first seen along an edge, all edges together
+inline constexpr int kSightWords = Planner::kSightWords;    ///< rows of all swaths (planner/world/seen_map.hpp)
+inline constexpr int kSwaths = Planner::kSwaths;            ///< of all nodes and edges
+inline constexpr int kSightEvents = Planner::kSightEvents;  ///< cells first seen along an edge, of the edges kept ready
+inline constexpr std::size_t kPlannerBytes = Planner::kPlannerBytes;  ///< at most: the planner object with all in it
 inline constexpr int kEdges = kNodes * 56;     ///< directed edges: a 7x7 neighbourhood has 48, merged nodes more
 inline constexpr int kWaypoints = 2 * kNodes;  ///< of one agent's path: jumps may pass a node again
 

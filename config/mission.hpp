@@ -22,6 +22,7 @@ struct Gaussian {
   Point mean;
   double sigma_m = 1.0;
   double weight = 1.0;  ///< relative to the other components
+  std::string agent{};  ///< whose sub-prior it belongs to, by name; empty: sub-priors are not given this way
 };
 struct GaussianMixturePrior {
   std::vector<Gaussian> components;
@@ -57,6 +58,7 @@ struct AgentSpec {
   double sight_radius_m = 2.5;       ///< R_m
   double footprint_radius_m = 0.30;  ///< of a person; a robot's comes from its file
   std::vector<Polygon> preferred;
+  std::optional<ImagePrior> sub_prior;  ///< given, in place of preferred areas
   std::vector<Polygon> restricted;
 };
 
@@ -88,6 +90,7 @@ struct Mission {
   ObjectSpec object = ObjectDrawn{};
   FindRule find = FindRule::kSight;
   PriorSpec prior = UniformPrior{};
+  bool alike_sub_priors = false;  ///< each agent's sub-prior is its part of the prior
   PlannerParameters planner;
   std::vector<AgentSpec> agents;
 };

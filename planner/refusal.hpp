@@ -14,12 +14,31 @@ enum class RefusalCode : std::uint8_t {
   kTooManyEdges,      ///< value directed edges so far, limit
   kSightTableFull,    ///< value events so far, limit
   kEdgeTooLong,       ///< value sight points of one edge, limit: cells too small for the spacing
+  kNoGraphTable,      ///< this build has no libccd and must be given its graph
+  kGraphTableUnfit,   ///< a graph that was given is none, or not one for these agents
   kStartOutsideMap,   ///< agent
   kStartBlocked,      ///< agent; value metres to the nearest obstacle or border, limit its footprint's radius
   kStartRestricted,   ///< agent
   kPriorWithoutMass,  ///< no free cell holds any
   kNoMassObservable,  ///< agent; from everywhere it can go it sees no cell that holds any
   kAreaWithoutMass,   ///< agent, area; a preferred area covers no mass that its agent can observe
+  kPriorNotFinite,    ///< value, a mass below 0, infinite or no number; agent: of its sub-prior, -1: of the prior
+  // What problem_checks.hpp finds, before anything is built.
+  kMapInvalid,         ///< value pixels given, limit width times height; or limit 0: value metres a pixel
+  kNoAgents,           ///< nobody to search
+  kCellSizeInvalid,    ///< value metres
+  kSpacingInvalid,     ///< value metres
+  kClearanceInvalid,   ///< value metres
+  kSpeedInvalid,       ///< agent; value metres a second, limit the least there is
+  kSightInvalid,       ///< agent; value metres, limit the most there is
+  kFootprintInvalid,   ///< agent; value metres
+  kAreaInvalid,        ///< agent, area; value 0 preferred, 1 restricted: under 3 vertices, or one that is not finite
+  kGaussianInvalid,    ///< area: which component; mean not finite, sigma_m under 1e-6 m or weight below 0
+  kImageInvalid,       ///< agent: of its sub-prior, -1: of the prior; value pixels given, limit width times height
+  kColonyInvalid,      ///< area: which parameter, in the order of ColonyParameterNumber; value
+  kSubPriorsTwice,     ///< agent; sub-priors are given, and it has preferred areas too
+  kSubPriorsMismatch,  ///< value sub-priors or components given, limit as many as there must be
+  kComponentDealtToNobody,  ///< area: which component; value the agent it is dealt to, limit how many there are
 };
 
 struct Refusal {

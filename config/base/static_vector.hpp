@@ -38,6 +38,14 @@ class StaticVector {
     size_ = size;
   }
 
+  /// As `other`; unlike a copy it costs what is in it, not what there is room for.
+  constexpr void assign(const StaticVector& other) noexcept {
+    size_ = other.size_;
+    for (std::size_t i = 0; i < size_; ++i) {
+      items_[i] = other.items_[i];
+    }
+  }
+
   [[nodiscard]] constexpr T& operator[](std::size_t i) noexcept {
     IVO_CONTRACT(i < size_);
     return items_[i];

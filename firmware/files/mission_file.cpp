@@ -37,9 +37,17 @@ GaussianMixturePrior read_gaussians(const TomlValue& list) {
     gaussian.mean = component.required("mean_m").point({-1e5, 1e5, "metres"});
     gaussian.sigma_m = component.required("sigma_m").number({0.01, 1e4, "metres"});
     gaussian.weight = component.optional("weight").number({1e-6, 1e6}, gaussian.weight);
+    gaussian.agent = component.optional("agent").text();
     prior.components.push_back(gaussian);
   }
   return prior;
+}
+
+ImagePrior read_image(const TomlValue& value, const std::string& mission_path) {
+  ImagePrior image;
+  image.image_path = beside(mission_path, value.required("image").text());
+  image.resolution_m = value.required("resolution_m").number({0.001, 100.0, "metres a pixel"});
+  return image;
 }
 
 PriorSpec read_prior(const TomlValue& value, const std::string& mission_path) {
@@ -53,22 +61,37 @@ PriorSpec read_prior(const TomlValue& value, const std::string& mission_path) {
     }
     return UniformPrior{};
   }
+  const TomlValue uniform = value.optional("uniform");
   const TomlValue gaussians = value.optional("gaussians");
   if (gaussians.present()) {
+    value.refuse("uniform", "a second prior beside gaussians; expected one of the two");
     value.refuse("image", "a second prior beside gaussians; expected one of the two");
     value.refuse("resolution_m", "belongs to an image; a prior of Gaussians has none");
     return read_gaussians(gaussians);
   }
-  ImagePrior image;
-  const TomlValue image_path = value.optional("image");
-  const TomlValue resolution = value.optional("resolution_m");
-  if (!image_path.present() && !resolution.present()) {
-    value.complain("holds no prior; expected gaussians, or image and resolution_m");
+  const bool has_image = value.optional("image").present() || value.optional("resolution_m").present();
+  if (uniform.present()) {
+    value.refuse("image", "a second prior beside uniform; expected one of the two");
+    value.refuse("resolution_m", "belongs to an image; a uniform prior has none");
+    if (!uniform.flag(true)) {
+      uniform.complain("is no prior; expected true, or gaussians or image in its place");
+    }
     return UniformPrior{};
   }
-  image.image_path = beside(mission_path, value.required("image").text());
-  image.resolution_m = value.required("resolution_m").number({0.001, 100.0, "metres a pixel"});
-  return image;
+  if (!has_image) {
+    value.complain("holds no prior; expected uniform, gaussians, or image and resolution_m");
+    return UniformPrior{};
+  }
+  return read_image(value, mission_path);
+}
+
+// Beside any prior that is a table: p/M to each.
+bool read_alike(const TomlValue& prior) {
+  const TomlValue value = prior.is_table() ? prior.optional("sub_priors") : prior;
+  if (!prior.is_table() || !value.present()) {
+    return false;
+  }
+  return value.choice({"alike"}) == 0;
 }
 
 PlannerParameters read_planner(const TomlValue& table) {
@@ -150,6 +173,11 @@ AgentSpec read_agent(const TomlValue& table, const std::string& mission_path) {
     table.refuse("heading_deg", "belongs to a robot; a person needs none");
   }
   agent.preferred = read_areas(table.optional("preferred"));
+  if (const TomlValue sub_prior = table.optional("sub_prior"); sub_prior.is_table()) {
+    agent.sub_prior = read_image(sub_prior, mission_path);
+  } else if (sub_prior.present()) {
+    sub_prior.complain("is no sub-prior; expected { image = \"...\", resolution_m = ... }");
+  }
   agent.restricted = read_areas(table.optional("restricted"));
   return agent;
 }
@@ -197,6 +225,7 @@ Result<MissionFile> read_mission(const std::string& path) {
   mission.object = read_object(root.optional("object"));
   mission.find = static_cast<FindRule>(root.optional("find").choice({"sight", "distance"}));
   mission.prior = read_prior(root.optional("prior"), path);
+  mission.alike_sub_priors = read_alike(root.optional("prior"));
   mission.planner = read_planner(root.optional("planner"));
   mission.agents = read_team(root.required("agent"), path);
   const Result<void> finish = toml.value().finish();

@@ -9,6 +9,7 @@
 
 #include "firmware/files/number_text.hpp"
 #include "firmware/files/robot_file.hpp"
+#include "firmware/tools/invalid_problem.hpp"
 
 namespace ivo::firmware {
 namespace {
@@ -70,6 +71,10 @@ Error sentence(const planner::Refusal& refusal, const MissionInputs& inputs) {
     case RefusalCode::kEdgeTooLong:
       return lines.at("planner.cell_m", "an edge has " + whole(refusal.value) + " sight points, more than " +
                                             whole(refusal.limit) + "; expected a larger cell_m or a smaller spacing_m");
+    case RefusalCode::kNoGraphTable:
+      return {"this build of the planner cannot prove edges free; expected a graph made by one with libccd"};
+    case RefusalCode::kGraphTableUnfit:
+      return {"the graph given to the planner does not fit the mission; expected one built for its agents"};
     case RefusalCode::kStartOutsideMap:
       return lines.at(agent_key + ".start_m", place(agent->start) + " is outside the map; expected 0 to " +
                                                   shortest(inputs.map.view().width_m()) + ", 0 to " +
@@ -95,6 +100,15 @@ Error sentence(const planner::Refusal& refusal, const MissionInputs& inputs) {
       return lines.at(
           agent_key + ".preferred[" + std::to_string(refusal.area) + "]",
           "covers nothing that may hold the object and that " + agent->name + " can see; expected an area that does");
+    case RefusalCode::kSubPriorsTwice:
+      return lines.at(agent_key + ".preferred",
+                      "preferred areas beside sub-priors that are given; expected one of the two");
+    case RefusalCode::kPriorNotFinite:
+      return lines.at(agent != nullptr ? agent_key + ".sub_prior" : "prior",
+                      "holds a mass of " + (std::isnan(refusal.value) ? "nan" : shortest(refusal.value)) +
+                          "; expected finite numbers, 0 or more");
+    default:
+      return invalid_problem(refusal, lines);
   }
   return {"the planner refused the mission"};
 }
@@ -113,6 +127,7 @@ planner::SearchProblem MissionInputs::problem() const {
   } else if (!gaussians.empty()) {
     problem.prior = std::span<const planner::GaussianComponent>(gaussians);
   }
+  problem.sub_priors = sub_priors.choice();
   for (const AgentSpec& spec : mission.agents) {
     planner::SearchAgent agent;
     agent.body = {
@@ -145,7 +160,8 @@ Result<MissionInputs> read_inputs(const std::string& mission_path) {
   if (!file) {
     return file.error();
   }
-  MissionInputs inputs{.file = std::move(file).value(), .map = {}, .robot = {}, .prior_image = {}, .gaussians = {}};
+  MissionInputs inputs{
+      .file = std::move(file).value(), .map = {}, .robot = {}, .prior_image = {}, .gaussians = {}, .sub_priors = {}};
   const Mission& mission = inputs.file.mission;
 
   const Lines& lines = inputs.file.lines;
@@ -176,6 +192,11 @@ Result<MissionInputs> read_inputs(const std::string& mission_path) {
       inputs.gaussians.push_back({part.mean, part.sigma_m, part.weight});
     }
   }
+  Result<SubPriorInputs> sub_priors = read_sub_priors(inputs.file);
+  if (!sub_priors) {
+    return sub_priors.error();
+  }
+  inputs.sub_priors = std::move(sub_priors).value();
   return inputs;
 }
 

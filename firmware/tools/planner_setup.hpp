@@ -10,6 +10,7 @@
 #include "firmware/files/grey_image.hpp"
 #include "firmware/files/map_file.hpp"
 #include "firmware/files/mission_file.hpp"
+#include "firmware/tools/sub_prior_inputs.hpp"
 #include "planner/search/planner.hpp"
 
 namespace ivo::firmware {
@@ -21,6 +22,7 @@ struct MissionInputs {
   Robot robot;
   std::optional<GreyImage> prior_image;
   std::vector<planner::GaussianComponent> gaussians;
+  SubPriorInputs sub_priors;
 
   [[nodiscard]] planner::SearchProblem problem() const;
 };

@@ -17,7 +17,8 @@ namespace {
 using Ways = std::vector<std::vector<Point>>;
 
 planner::PathScorer& the_scorer() {
-  static planner::PathScorer scorer;  // large
+  static planner::FirstSightings sightings;  // large
+  static planner::PathScorer scorer(sightings);
   return scorer;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "planner/numeric/index.hpp"
 
@@ -28,42 +29,29 @@ Refusal check_areas(const Cells& cells, const SightTable& sight, const Preferred
   return {};
 }
 
-// Each to 1/M; who has nothing of its own searches p.
-void scale(const std::array<double, limits::kAgents>& sums, Belief& belief, AgentSet& left_without) noexcept {
-  for (int m = 0; m < belief.agents; ++m) {
-    const bool none = sums[index(m)] <= 0.0;
-    if (none) {
-      left_without = static_cast<AgentSet>(left_without | agent_bit(m));
-    }
-    const double scale = none ? 1.0 / belief.agents : 1.0 / (belief.agents * sums[index(m)]);
-    for (const Cell c : belief.cells_with_mass()) {
-      const double share = none ? belief.mass[index(c)] : belief.sub_mass[index(m)][index(c)];
-      belief.sub_mass[index(m)][index(c)] = share * scale;
-    }
-  }
-}
-
 }  // namespace
 
-Refusal normalise(const SightTable& sight, int cells, int agents, Belief& belief) noexcept {
+Refusal normalise(const Cells& cells, const SightTable& sight, int agents, std::span<const double> raw,
+                  Belief& belief) noexcept {
   double whole = 0.0;
   double observable = 0.0;
   AgentSet observers = 0;
-  belief.cells = cells;
+  belief.cells = cells.count();
   belief.agents = agents;
   belief.mass_cell_count = 0;
-  for (Cell c = 0; c < cells; ++c) {
-    double& mass = belief.mass[index(c)];
-    whole += mass;
+  for (Cell c = 0; c < cells.count(); ++c) {
+    if (!(raw[index(c)] >= 0.0)) {
+      return {.code = RefusalCode::kPriorNotFinite, .value = raw[index(c)]};
+    }
     const AgentSet by = sight.observable_by(c);
-    if (by == 0) {
-      mass = 0.0;
-    }
-    if (mass > 0.0) {
-      observable += mass;
+    whole += raw[index(c)];
+    if (by != 0 && raw[index(c)] > 0.0) {
+      observable += raw[index(c)];
       observers = static_cast<AgentSet>(observers | by);
-      belief.mass_cells[index(belief.mass_cell_count++)] = c;
     }
+  }
+  if (!std::isfinite(whole)) {
+    return {.code = RefusalCode::kPriorNotFinite, .value = whole};
   }
   if (whole <= 0.0) {
     return {.code = RefusalCode::kPriorWithoutMass};
@@ -73,9 +61,18 @@ Refusal normalise(const SightTable& sight, int cells, int agents, Belief& belief
       return {.code = RefusalCode::kNoMassObservable, .agent = agent};
     }
   }
-  belief.unobservable_share = 1.0 - observable / whole;
-  for (const Cell c : belief.cells_with_mass()) {
-    belief.mass[index(c)] /= observable;
+  belief.unobservable_share = std::max(0.0, 1.0 - observable / whole);
+  belief.without_mass.open(cells.columns(), cells.rows());
+  belief.alike = Mass{};
+  for (Cell c = 0; c < cells.count(); ++c) {
+    Mass& mass = belief.mass[index(c)];
+    mass = sight.observable_by(c) != 0 ? mass_from(raw[index(c)] / observable) : Mass{};
+    if (mass <= Mass{}) {
+      belief.without_mass.set(cells.column(c), cells.row(c));
+      continue;
+    }
+    belief.alike = belief.mass_cell_count == 0 || belief.alike == mass ? mass : Mass{};
+    belief.mass_cells[index(belief.mass_cell_count++)] = c;
   }
   return {};
 }
@@ -98,7 +95,7 @@ Refusal divide(const Cells& cells, const SightTable& sight, const PreferredAreas
   const AgentSet takers_of_the_rest = stated == all ? all : static_cast<AgentSet>(all & ~stated);
   std::array<double, limits::kAgents> sums{};
   for (int m = 0; m < belief.agents; ++m) {
-    std::fill_n(belief.sub_mass[index(m)].begin(), belief.cells, 0.0);  // of an earlier mission
+    std::fill_n(belief.sub_mass[index(m)].begin(), belief.cells, Mass{});  // of an earlier mission
   }
   for (const Cell c : belief.cells_with_mass()) {
     AgentSet takers = 0;
@@ -110,29 +107,18 @@ Refusal divide(const Cells& cells, const SightTable& sight, const PreferredAreas
     if (takers == 0) {
       takers = takers_of_the_rest;
     }
-    const double part = belief.mass[index(c)] / std::popcount(takers);
+    const double part = to_double(belief.mass[index(c)]) / std::popcount(takers);
     for (int m = 0; m < belief.agents; ++m) {
       const bool counts = in(takers, m) && in(sight.observable_by(c), m);
-      belief.sub_mass[index(m)][index(c)] = counts ? part : 0.0;
+      belief.sub_mass[index(m)][index(c)] = counts ? mass_from(part) : Mass{};
       sums[index(m)] += counts ? part : 0.0;
     }
   }
-  scale(sums, belief, left_without);
-  return {};
-}
-
-void deal(const SightTable& sight, Belief& belief, AgentSet& left_without) noexcept {
-  belief.has_sub_priors = true;
-  left_without = 0;
-  std::array<double, limits::kAgents> sums{};
   for (int m = 0; m < belief.agents; ++m) {
-    for (Cell c = 0; c < belief.cells; ++c) {
-      double& share = belief.sub_mass[index(m)][index(c)];
-      share = belief.mass[index(c)] > 0.0 && in(sight.observable_by(c), m) ? share : 0.0;
-      sums[index(m)] += share;
-    }
+    fill_sub_prior(m, sums[index(m)], belief, left_without,
+                   [&](Cell c) { return to_double(belief.sub_mass[index(m)][index(c)]); });
   }
-  scale(sums, belief, left_without);
+  return {};
 }
 
 }  // namespace ivo::planner

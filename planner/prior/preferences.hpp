@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "config/base/static_vector.hpp"
 #include "planner/refusal.hpp"
@@ -14,9 +15,11 @@ namespace ivo::planner {
 
 using PreferredAreas = StaticVector<Areas, limits::kAgents>;
 
-/// Scales belief.mass to sum 1 over the observable cells, sets it 0 elsewhere, lists the cells with mass and reports
-/// the unobservable share. Refuses an agent that can observe no mass. Cost: the cells.
-[[nodiscard]] Refusal normalise(const SightTable& sight, int cells, int agents, Belief& belief) noexcept;
+/// From raw masses, one a cell and not normalised: belief.mass with sum 1 over the observable cells and 0 elsewhere, the
+/// list of cells with mass, and the unobservable share. Refuses a mass below 0, one that is not
+/// finite, and an agent that can observe no mass. Cost: the cells.
+[[nodiscard]] Refusal normalise(const Cells& cells, const SightTable& sight, int agents, std::span<const double> raw,
+                                Belief& belief) noexcept;
 
 /// A cell preferred by some agents goes to them in equal parts; a cell preferred by nobody goes in equal parts to the
 /// agents that stated no preference, or to all if every agent stated one. Shares count what the agent can observe; each
@@ -25,8 +28,20 @@ using PreferredAreas = StaticVector<Areas, limits::kAgents>;
 [[nodiscard]] Refusal divide(const Cells& cells, const SightTable& sight, const PreferredAreas& preferred,
                              Belief& belief, AgentSet& left_without) noexcept;
 
-/// Sub-priors that were given: belief.sub_mass as filled, one an agent, becomes what the agent can observe of it,
-/// scaled to 1/M. An agent left without mass gets p/M, and `left_without` says so. Cost: cells times agents.
-void deal(const SightTable& sight, Belief& belief, AgentSet& left_without) noexcept;
+/// p_m of one agent from shares of any scale, `sum` their sum over the cells with mass: scaled to 1/M; p/M when there is
+/// none, and `left_without` says so. Cost: the cells with mass.
+template <class ShareOf>
+void fill_sub_prior(int agent, double sum, Belief& belief, AgentSet& left_without, ShareOf&& share_of) noexcept {
+  const bool none = sum <= 0.0;
+  if (none) {
+    left_without = static_cast<AgentSet>(left_without | agent_bit(agent));
+  }
+  const double scale = none ? 1.0 / belief.agents : 1.0 / (belief.agents * sum);
+  for (const Cell c : belief.cells_with_mass()) {
+    const double share = none ? to_double(belief.mass[index(c)]) : share_of(c);
+    belief.sub_mass[index(agent)][index(c)] = mass_from(share * scale);
+  }
+}
+
 
 }  // namespace ivo::planner

@@ -14,6 +14,23 @@ void fill_free_cells(const Cells& cells, std::span<double> mass, MassAt&& mass_a
 
 }  // namespace
 
+double density(const GaussianComponent& component, Point p) noexcept {
+  const double dx = p.x_m - component.mean.x_m;
+  const double dy = p.y_m - component.mean.y_m;
+  const double variance = component.sigma_m * component.sigma_m;
+  return component.weight / variance * exp_negative(-(dx * dx + dy * dy) / (2.0 * variance));
+}
+
+double value_at(const GreyView& image, Point p) noexcept {
+  const double column = p.x_m / image.resolution_m;
+  const double row = p.y_m / image.resolution_m;
+  if (column >= image.width_px || row >= image.height_px) {
+    return 0.0;
+  }
+  return image.values[static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width_px) +
+                      static_cast<std::size_t>(column)];
+}
+
 void fill_uniform(const Cells& cells, std::span<double> mass) noexcept {
   fill_free_cells(cells, mass, [](Point) { return 1.0; });
 }
@@ -21,27 +38,16 @@ void fill_uniform(const Cells& cells, std::span<double> mass) noexcept {
 void fill_gaussian_mixture(const Cells& cells, std::span<const GaussianComponent> components,
                            std::span<double> mass) noexcept {
   fill_free_cells(cells, mass, [&](Point p) {
-    double density = 0.0;
+    double sum = 0.0;
     for (const GaussianComponent& component : components) {
-      const double dx = p.x_m - component.mean.x_m;
-      const double dy = p.y_m - component.mean.y_m;
-      const double variance = component.sigma_m * component.sigma_m;
-      density += component.weight / variance * exp_negative(-(dx * dx + dy * dy) / (2.0 * variance));
+      sum += density(component, p);
     }
-    return density;
+    return sum;
   });
 }
 
 void fill_from_image(const Cells& cells, const GreyView& image, std::span<double> mass) noexcept {
-  fill_free_cells(cells, mass, [&](Point p) {
-    const int column = static_cast<int>(p.x_m / image.resolution_m);
-    const int row = static_cast<int>(p.y_m / image.resolution_m);
-    if (column >= image.width_px || row >= image.height_px) {
-      return 0.0;
-    }
-    return static_cast<double>(image.values[static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width_px) +
-                                            static_cast<std::size_t>(column)]);
-  });
+  fill_free_cells(cells, mass, [&](Point p) { return value_at(image, p); });
 }
 
 }  // namespace ivo::planner

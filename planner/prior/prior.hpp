@@ -23,6 +23,11 @@ struct GreyView {
   double resolution_m = 0.0;
 };
 
+/// Mass a square metre of a component, times its weight, but for a factor that all have.
+[[nodiscard]] double density(const GaussianComponent& component, Point p) noexcept;
+/// The value of the pixel under `p`; 0 outside the image.
+[[nodiscard]] double value_at(const GreyView& image, Point p) noexcept;
+
 /// Cost of each: the cells (times the components).
 void fill_uniform(const Cells& cells, std::span<double> mass) noexcept;
 void fill_gaussian_mixture(const Cells& cells, std::span<const GaussianComponent> components,

@@ -2,26 +2,35 @@
 
 #include <algorithm>
 
+#include "planner/search/expected_time.hpp"
+#include "planner/search/first_sightings.hpp"
+
 namespace ivo::planner {
 
-void Ant::start(const AntParameters& parameters) noexcept {
+void Ant::start(const AntParameters& parameters, Heuristic heuristic, int beta) noexcept {
   parameters_ = parameters;
+  heuristic_ = heuristic;
+  beta_ = beta;
   if (++ant_number_ == 0) {
     visited_.fill(0);
     ant_number_ = 1;
   }
-  sightings_.clear();
-  unseen_mass_ = 1.0;
+  seen_.copy(world_.belief.without_mass);
+  unseen_ = Mass(1);
+  low_steps_ = high_steps_ = Mass{};
+  last_new_s_ = Seconds{};
+  if (heuristic_ == Heuristic::kMts) {
+    sectors_.start();
+  }
   for (int m = 0; m < world_.graph.agents(); ++m) {
     at_[index(m)] = m;
-    time_s_[index(m)] = 0.0;
+    time_s_[index(m)] = Seconds{};
     retired_[index(m)] = false;
     paths_[index(m)].clear();
     visit(m);
-    for (const SightEvent event : world_.sight.from_node(m, m)) {
-      if (sightings_.see(event.cell(), m, 0.0)) {
-        unseen_mass_ -= world_.belief.mass[index(event.cell())];
-      }
+    agent_ = m;
+    for (const Swath& swath : world_.sight.from_node(m, m).swaths) {
+      look(swath, world_.sight.words(swath), 0, 0);
     }
   }
   phase_ = Phase::kChooseAgent;
@@ -31,19 +40,21 @@ int Ant::advance(Rng& rng, int rows) noexcept {
   switch (phase_) {
     case Phase::kChooseAgent:
       return choose_agent(rng);
+    case Phase::kWeigh:
+      return weigh(rows);
     case Phase::kChooseNode:
       return choose_node(rng);
     case Phase::kJump:
       return jump();
     case Phase::kMove:
       return move(rows);
-    case Phase::kScore:
-      return score_some(rows);
     case Phase::kDone:
       break;
   }
   return 0;
 }
+
+bool Ant::complete() const noexcept { return is_complete(to_double(unseen_), parameters_.max_unseen_mass); }
 
 // The agent whose path ends earliest with probability q, else one of the others; a single one left is taken without a
 // draw.
@@ -54,10 +65,8 @@ int Ant::choose_agent(Rng& rng) noexcept {
       break;
     }
   }
-  if (is_complete(unseen_mass_, parameters_.max_unseen_mass) || left.empty()) {
-    expected_.clear();
-    row_ = 0;
-    phase_ = Phase::kScore;
+  if (complete() || left.empty()) {
+    phase_ = Phase::kDone;
     return 1;
   }
   std::size_t earliest = 0;
@@ -72,8 +81,19 @@ int Ant::choose_agent(Rng& rng) noexcept {
     chosen = other < earliest ? other : other + 1;
   }
   agent_ = left[chosen];
-  phase_ = Phase::kChooseNode;
+  phase_ = heuristic_ == Heuristic::kMts ? Phase::kWeigh : Phase::kChooseNode;
+  if (phase_ == Phase::kWeigh) {
+    sectors_.begin(agent_, at_[index(agent_)]);
+  }
   return 1;
+}
+
+int Ant::weigh(int rows) noexcept {
+  const int work = sectors_.advance(rows);
+  if (sectors_.done()) {
+    phase_ = Phase::kChooseNode;
+  }
+  return work;
 }
 
 // Eq. 2 over the neighbours on which no agent of this ant has been.
@@ -82,19 +102,21 @@ int Ant::choose_node(Rng& rng) noexcept {
   const Node here = at_[index(agent_)];
   const Edge first = graph.first_edge(here);
   const Edge end = graph.end_edge(here);
-  double sum = 0.0;
+  Weight sum{};
   for (Edge e = first; e < end; ++e) {
-    const bool open = in(graph.open_to(e), agent_) && !visited(graph.head(e));
-    sum += open ? trails_.attraction(agent_, e) : 0.0;
+    if (in(graph.open_to(e), agent_) && !visited(graph.head(e))) {
+      sum += heuristic_ == Heuristic::kMts ? trails_.attraction(agent_, e, sectors_.visibility(e, beta_))
+                                           : trails_.attraction(agent_, e);
+    }
     weights_[index(e - first)] = sum;
   }
   const int work = end - first + 1;
-  if (sum <= 0.0) {
+  if (sum <= Weight{}) {
     jump_.start(graph, agent_, here);
     phase_ = Phase::kJump;
     return work;
   }
-  const double draw = rng.unit() * sum;
+  const Weight draw = draw_below(sum, rng);
   const auto begin = weights_.begin();
   // The first sum above the draw; a closed edge adds nothing and is never the first. A draw that rounds up to the sum
   // takes the last.
@@ -104,15 +126,14 @@ int Ant::choose_node(Rng& rng) noexcept {
   }
   route_.clear();
   (void)route_.push_back(first + static_cast<Edge>(found - begin));
-  row_ = 0;
-  phase_ = Phase::kMove;
+  begin_move();
   return work;
 }
 
 bool Ant::shows_something_new(Node n, int& work) const noexcept {
-  for (const SightEvent event : world_.sight.from_node(agent_, n)) {
-    ++work;
-    if (!sightings_.seen(event.cell())) {
+  for (const Swath& swath : world_.sight.from_node(agent_, n).swaths) {
+    work += swath.rows;
+    if (seen_.any_new(swath, world_.sight.words(swath))) {
       return true;
     }
   }
@@ -133,8 +154,7 @@ int Ant::jump() noexcept {
     for (Node step = n; jump_.edge_to(step) >= 0; step = jump_.before(step)) {
       (void)route_.push_back(jump_.edge_to(step));
     }
-    row_ = 0;
-    phase_ = Phase::kMove;
+    begin_move();
   }
   return work;
 }
@@ -144,77 +164,137 @@ void Ant::retire() noexcept {
   phase_ = Phase::kChooseAgent;
 }
 
-double Ant::seconds_a_point(int agent, Edge e) const noexcept {
-  return world_.graph.length_m(e) / (world_.sight.points(e) * world_.speeds_mps[index(agent)]);
-}
-
-// The time of the edge's last sight point to the last bit, so that a path that ends there does not seem to enter the
-// next edge.
-double Ant::seconds_along(int agent, Edge e) const noexcept {
-  return seconds_a_point(agent, e) * world_.sight.points(e);
+void Ant::begin_move() noexcept {
+  swath_ = 0;
+  row_ = 0;
+  shown_ = Mass{};
+  phase_ = Phase::kMove;
 }
 
 int Ant::move(int rows) noexcept {
   const Edge e = route_.back();
-  const auto events = world_.sight.along_edge(agent_, e);
-  const double pace_s = seconds_a_point(agent_, e);
-  const std::size_t end = std::min(events.size(), row_ + static_cast<std::size_t>(rows));
-  const int work = static_cast<int>(end - row_) + 1;
-  for (; row_ < end; ++row_) {
-    const SightEvent event = events[row_];
-    if (sightings_.see(event.cell(), agent_, time_s_[index(agent_)] + pace_s * event.point())) {
-      unseen_mass_ -= world_.belief.mass[index(event.cell())];
+  const SightView view = world_.sight.along_edge(agent_, e);
+  const int points = world_.sight.points(e);
+  int work = 1;
+  while (swath_ < view.size() && work <= rows) {
+    const Swath& swath = view.at(swath_);
+    Swath part = swath;
+    part.first_row += row_;
+    part.rows = static_cast<std::int16_t>(std::min<int>(swath.rows - row_, rows - work + 1));
+    look(part, world_.sight.words(swath) + row_, view.reversed ? points - swath.last_point : swath.first_point,
+         view.reversed ? points - swath.first_point : swath.last_point);
+    work += part.rows;
+    row_ += part.rows;
+    if (row_ == swath.rows) {
+      row_ = 0;
+      ++swath_;
     }
   }
-  if (row_ == events.size()) {
-    take_edge(e);
+  if (swath_ == view.size()) {
+    end_move(e);
   }
   return work;
 }
 
-void Ant::take_edge(Edge e) noexcept {
-  row_ = 0;
+// A cell that a swath adds is first seen after its first point (what that one shows, the swath before has shown) and at
+// its last at the latest.
+void Ant::look(const Swath& part, const std::uint64_t* words, int first_point, int last_point) noexcept {
+  const Belief& belief = world_.belief;
+  Mass gained{};
+  if (belief.alike > Mass{} && heuristic_ == Heuristic::kTsp) {
+    gained = belief.alike * seen_.look_and_count(part, words);
+  } else {
+    seen_.look(part, words, [&](int row, std::uint64_t fresh) {
+      const Cell first = seen_.cell(row, part.first_byte, 0);
+      for_each_bit(fresh, [&](int bit) {
+        gained += belief.mass[index(first + bit)];
+        if (heuristic_ == Heuristic::kMts) {
+          sectors_.take(first + bit);
+        }
+      });
+    });
+  }
+  if (gained <= Mass{}) {
+    return;
+  }
+  unseen_ -= gained;
+  shown_ += gained;
+  if (last_point == 0) {
+    return;  // from a start, in step 0
+  }
+  const Edge e = route_.back();
+  const Seconds begin_s = time_s_[index(agent_)];
+  const Pace pace = world_.pace(agent_, e);
+  const Seconds earliest_s = begin_s + after_points(pace, first_point + 1);
+  low_steps_ += gained * (std::max(step_of(earliest_s), 1) - 1);
+  high_steps_ += gained * (std::max(step_of(begin_s + after_points(pace, last_point)), 1) - 1);
+  last_new_s_ = earliest_s;
+}
+
+void Ant::end_move(Edge e) noexcept {
+  const Seconds begin_s = time_s_[index(agent_)];
+  // What another agent was to show first may have been seen by this one before: then it comes earlier than counted, by
+  // no more than the two moves overlap in time. No more mass changes hands than the other's move showed.
+  for (int other = 0; other < world_.graph.agents(); ++other) {
+    const EdgePath& path = paths_[index(other)];
+    for (std::size_t i = other == agent_ ? 0 : path.size(); i > 0; --i) {
+      const Move& move = moves_[index(other)][i - 1];
+      if (move.end_s <= begin_s) {
+        break;
+      }
+      if (!may_share(other, path, i - 1, e)) {
+        continue;
+      }
+      low_steps_ -= move.shown * (step_of(move.end_s) - step_of(begin_s));
+    }
+  }
   route_.pop_back();
   at_[index(agent_)] = world_.graph.head(e);
-  time_s_[index(agent_)] += seconds_along(agent_, e);
+  time_s_[index(agent_)] = begin_s + world_.seconds_along(agent_, e);
   visit(at_[index(agent_)]);
-  if (!paths_[index(agent_)].push_back(e) || paths_[index(agent_)].full()) {
+  EdgePath& path = paths_[index(agent_)];
+  moves_[index(agent_)][path.size()] = {time_s_[index(agent_)], shown_};
+  if (!path.push_back(e) || path.full()) {
     retire();
   } else if (route_.empty()) {
     phase_ = Phase::kChooseAgent;
+  } else {
+    begin_move();
   }
 }
 
-int Ant::score_some(int rows) noexcept {
-  const int all = world_.belief.mass_cell_count;
-  const int first = static_cast<int>(row_);
-  const int count = std::min(rows, all - first);
-  expected_.add(world_.belief, sightings_, first, count);
-  row_ += static_cast<std::size_t>(count);
-  if (first + count == all) {
-    score_ = expected_.score(world_.belief, parameters_.max_unseen_mass);
-    phase_ = Phase::kDone;
+// Whether two moves' sights can have a cell in common: by their bounding boxes.
+bool Ant::may_share(int other, const EdgePath& path, std::size_t i, Edge e) const noexcept {
+  const Graph& graph = world_.graph;
+  const double reach_m = world_.sight.radius_m(other) + world_.sight.radius_m(agent_) + graph.spacing_m() * 1e-6;
+  const Point a = graph.position(i == 0 ? other : graph.head(path[i - 1]));
+  const Point b = graph.position(graph.head(path[i]));
+  const Point c = graph.position(at_[index(agent_)]);
+  const Point d = graph.position(graph.head(e));
+  return std::max(std::min(a.x_m, b.x_m), std::min(c.x_m, d.x_m)) - reach_m <=
+             std::min(std::max(a.x_m, b.x_m), std::max(c.x_m, d.x_m)) &&
+         std::max(std::min(a.y_m, b.y_m), std::min(c.y_m, d.y_m)) - reach_m <=
+             std::min(std::max(a.y_m, b.y_m), std::max(c.y_m, d.y_m));
+}
+
+CostInterval Ant::cost() const noexcept {
+  Seconds last_s{};
+  for (int m = 0; m < world_.graph.agents(); ++m) {
+    last_s = std::max(last_s, time_s_[index(m)]);
   }
-  return count + 1;
+  // Sums of Eq. 8 in another order may differ in their last bits.
+  const Mass margin(1e-6);
+  return {low_steps_ + unseen_ * step_of(last_new_s_) - margin, high_steps_ + unseen_ * step_of(last_s) + margin};
 }
 
 void Ant::finish(Tour& tour) const noexcept {
-  tour.paths.clear();
-  tour.score = score_;
+  tour.scored = false;
+  tour.complete = complete();
+  tour.unseen = unseen_;
+  tour.cost = cost();
   for (int m = 0; m < world_.graph.agents(); ++m) {
-    const double end_s = expected_.path_end_s(m);
-    tour.end_s[index(m)] = end_s;
     tour.paths.resize(index(m) + 1);
-    EdgePath& path = tour.paths[index(m)];
-    path.clear();
-    double time_s = 0.0;
-    for (const Edge e : paths_[index(m)]) {
-      if (time_s >= end_s) {
-        break;
-      }
-      (void)path.push_back(e);
-      time_s += seconds_along(m, e);
-    }
+    tour.paths[index(m)].assign(paths_[index(m)]);
   }
 }
 

@@ -1,99 +1,99 @@
 // One ant: builds a path for every agent, move by move, and can be stopped between any two moves' parts (model.md,
-// "Search (MMAS)").
+// "Search (MMAS)"). It keeps what is seen as bits; the exact cost is left to who needs it (tour_scorer.hpp), and a lower
+// and an upper bound of it fall out on the way.
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <span>
 
 #include "planner/numeric/index.hpp"
 #include "planner/numeric/rng.hpp"
-#include "planner/search/belief.hpp"
-#include "planner/search/expected_time.hpp"
-#include "planner/search/first_sightings.hpp"
 #include "planner/search/jump_search.hpp"
+#include "planner/search/sector_heuristic.hpp"
+#include "planner/search/tour.hpp"
 #include "planner/search/trails.hpp"
-#include "planner/world/sight_table.hpp"
+#include "planner/search/world.hpp"
 
 namespace ivo::planner {
-
-/// What every ant of a mission works on.
-struct World {
-  const Graph& graph;
-  const SightTable& sight;
-  const Belief& belief;
-  const std::array<double, limits::kAgents>& speeds_mps;
-};
 
 struct AntParameters {
   double shortest_first = 0.9;     ///< q: probability of extending the agent whose path ends earliest in time
   double max_unseen_mass = 0.014;  ///< done at or below
 };
 
-/// Edges that an agent takes, in order, from its start.
-using EdgePath = StaticVector<Edge, limits::kWaypoints - 1>;
-
-/// What an ant built: every agent's edges up to the last that shows something new, and when the path ends on it.
-struct Tour {
-  StaticVector<EdgePath, limits::kAgents> paths;
-  std::array<double, limits::kAgents> end_s{};
-  PlanScore score;
-};
-
 class Ant {
  public:
-  Ant(const World& world, const Trails& trails) noexcept : world_(world), trails_(trails) {}
+  Ant(const World& world, const Trails& trails) noexcept : world_(world), trails_(trails), sectors_(world) {}
 
-  /// Puts every agent on its start. Cost: the starts' discs, and one a node.
-  void start(const AntParameters& parameters) noexcept;
+  /// Puts every agent on its start. `beta` is for eta_MTS; eta_TSP is in the trails. Cost: the seen map's bytes.
+  void start(const AntParameters& parameters, Heuristic heuristic, int beta) noexcept;
 
-  /// Does a part of the work: a choice, up to `rows` table rows of a move or of the scoring, or one node of a jump
-  /// search. Returns the work done, in units (planner.hpp). Nothing when done.
+  /// Does a part of the work: a choice, up to `rows` rows of a move, one node of a jump search. Returns the work done, in
+  /// units (planner.hpp). Nothing when done.
   int advance(Rng& rng, int rows) noexcept;
 
   [[nodiscard]] bool done() const noexcept { return phase_ == Phase::kDone; }
-  /// When done. Cost of the copy: the edges.
+  /// Another mission. Cost: the cells with mass.
+  void open() noexcept { sectors_.open(); }
+
+  /// When done: an unscored tour. Cost of the copy: the edges.
   void finish(Tour& tour) const noexcept;
-  [[nodiscard]] const PlanScore& score() const noexcept { return score_; }
+  // When done:
+  [[nodiscard]] bool complete() const noexcept;
+  [[nodiscard]] Mass unseen() const noexcept { return unseen_; }
+  /// Of Eq. 8; the exact cost lies inside.
+  [[nodiscard]] CostInterval cost() const noexcept;
 
  private:
-  enum class Phase : std::uint8_t { kChooseAgent, kChooseNode, kJump, kMove, kScore, kDone };
+  enum class Phase : std::uint8_t { kChooseAgent, kWeigh, kChooseNode, kJump, kMove, kDone };
+  struct Move {
+    Seconds end_s{};
+    Mass shown{};  // what it showed first
+  };
 
   int choose_agent(Rng& rng) noexcept;
+  int weigh(int rows) noexcept;
   int choose_node(Rng& rng) noexcept;
   int jump() noexcept;
   int move(int rows) noexcept;
-  int score_some(int rows) noexcept;
-  void take_edge(Edge e) noexcept;
+  void begin_move() noexcept;
+  void look(const Swath& part, const std::uint64_t* words, int first_point, int last_point) noexcept;
+  void end_move(Edge e) noexcept;
   void retire() noexcept;
-  [[nodiscard]] double seconds_a_point(int agent, Edge e) const noexcept;
-  [[nodiscard]] double seconds_along(int agent, Edge e) const noexcept;
+  [[nodiscard]] bool may_share(int other, const EdgePath& path, std::size_t i, Edge e) const noexcept;
   void visit(Node n) noexcept { visited_[index(n)] = ant_number_; }
   [[nodiscard]] bool visited(Node n) const noexcept { return visited_[index(n)] == ant_number_; }
   [[nodiscard]] bool shows_something_new(Node n, int& work) const noexcept;
 
   const World world_;
   const Trails& trails_;
+  SectorHeuristic sectors_;
   AntParameters parameters_;
+  Heuristic heuristic_ = Heuristic::kTsp;
+  int beta_ = 0;
   Phase phase_ = Phase::kDone;
 
   std::uint32_t ant_number_ = 0;
   std::array<std::uint32_t, limits::kNodes> visited_{};
-  FirstSightings sightings_;
-  double unseen_mass_ = 1.0;
+  SeenMap seen_;
+  Mass unseen_{};
+  Mass low_steps_{};  // sum of p (k - 1), each cell at the earliest and the latest that its swath allows
+  Mass high_steps_{};
+  Seconds last_new_s_{};  // no earlier does the last path end
 
   std::array<Node, limits::kAgents> at_{};
-  std::array<double, limits::kAgents> time_s_{};
+  std::array<Seconds, limits::kAgents> time_s_{};
   std::array<bool, limits::kAgents> retired_{};
   std::array<EdgePath, limits::kAgents> paths_{};
+  std::array<std::array<Move, limits::kWaypoints>, limits::kAgents> moves_{};
 
   int agent_ = 0;                             // whose turn it is
   StaticVector<Edge, limits::kNodes> route_;  // of this turn, last edge first: one edge, or a jump's
-  std::size_t row_ = 0;                       // of the edge under way, or of the scoring
-  std::array<double, limits::kNodes> weights_{};
+  std::size_t swath_ = 0;                     // of the edge under way
+  int row_ = 0;
+  Mass shown_{};
+  std::array<Weight, limits::kNodes> weights_{};
   JumpSearch jump_;
-  ExpectedTime expected_;
-  PlanScore score_;
 };
 
 }  // namespace ivo::planner

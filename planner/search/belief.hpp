@@ -6,7 +6,9 @@
 #include <span>
 
 #include "config/limits.hpp"
+#include "planner/numeric/scalar.hpp"
 #include "planner/world/cells.hpp"
+#include "planner/world/seen_map.hpp"
 
 namespace ivo::planner {
 
@@ -14,13 +16,16 @@ struct Belief {
   int cells = 0;
   int agents = 0;
   bool has_sub_priors = false;
-  std::array<double, limits::kCells> mass{};  ///< p: sums to 1 over the observable cells, 0 elsewhere
+  /// p: sums to 1 over the observable cells, 0 elsewhere; multiples of kMassUnit, so that sums of them are exact.
+  std::array<Mass, limits::kCells> mass{};
   /// p_m: each sums to 1/M (Eq. 10); set when has_sub_priors.
-  std::array<std::array<double, limits::kCells>, limits::kAgents> sub_mass{};
+  std::array<std::array<Mass, limits::kCells>, limits::kAgents> sub_mass{};
+  Mass alike{};  ///< p of every cell with mass when all have the same, else 0
   std::array<Cell, limits::kCells> mass_cells{};  ///< the cells with mass, ascending
   int mass_cell_count = 0;
-  double sub_prior_steps = 0.0;     ///< K of EST: steps of 1 s over which every plan of the mission is summed
+  int sub_prior_steps = 0;          ///< K of EST: steps of 1 s over which every plan of the mission is summed
   double unobservable_share = 0.0;  ///< of the whole prior; enters nothing else
+  SeenMap without_mass;             ///< cells without mass, as if seen: where a search begins
 
   [[nodiscard]] std::span<const Cell> cells_with_mass() const noexcept {
     return {mass_cells.data(), static_cast<std::size_t>(mass_cell_count)};

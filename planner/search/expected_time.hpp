@@ -26,24 +26,30 @@ class ExpectedTime {
   void add(const Belief& belief, const FirstSightings& sightings, int first, int count) noexcept;
 
   /// When the path of an agent ends: where it last sees something new. 0 when it never does.
-  [[nodiscard]] double path_end_s(int agent) const noexcept { return path_end_s_[static_cast<std::size_t>(agent)]; }
+  [[nodiscard]] Seconds path_end_s(int agent) const noexcept { return path_end_s_[index(agent)]; }
+  [[nodiscard]] Mass unseen() const noexcept;
+  /// ET of Eq. 8 as the search compares it.
+  [[nodiscard]] Mass expected_time() const noexcept;
+  /// EST of Eq. 10 likewise, over belief.sub_prior_steps.
+  [[nodiscard]] Mass expected_sub_prior_time(const Belief& belief) const noexcept;
   /// `max_unseen_mass` decides what is complete.
   [[nodiscard]] PlanScore score(const Belief& belief, double max_unseen_mass) const noexcept;
 
  private:
-  void extend_path(int agent, double to_s) noexcept {
-    double& end_s = path_end_s_[static_cast<std::size_t>(agent)];
+  [[nodiscard]] Seconds horizon_s() const noexcept;
+  void extend_path(int agent, Seconds to_s) noexcept {
+    Seconds& end_s = path_end_s_[index(agent)];
     if (to_s > end_s) {
       end_s = to_s;
     }
   }
 
-  double seen_mass_ = 0.0;
-  double mass_seconds_ = 0.0;    // sum of p t_c
-  double mass_steps_ = 0.0;      // sum of p (max(k, 1) - 1)
-  double sub_mass_ = 0.0;        // sum of p_w
-  double sub_mass_steps_ = 0.0;  // sum of p_w min(max(k, 1) - 1, K)
-  std::array<double, limits::kAgents> path_end_s_{};
+  Mass seen_mass_{};
+  MassTime mass_seconds_{};  // sum of p t_c
+  Mass mass_steps_{};        // sum of p (max(k, 1) - 1)
+  Mass sub_mass_{};          // sum of p_w
+  Mass sub_mass_steps_{};    // sum of p_w min(max(k, 1) - 1, K)
+  std::array<Seconds, limits::kAgents> path_end_s_{};
 };
 
 }  // namespace ivo::planner

@@ -2,11 +2,13 @@
 // (Eq. 4 to 8 reduce to it; model.md, "Sensing and expected time").
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
 #include "config/limits.hpp"
 #include "planner/numeric/index.hpp"
+#include "planner/numeric/scalar.hpp"
 #include "planner/world/cells.hpp"
 
 namespace ivo::planner {
@@ -14,73 +16,72 @@ namespace ivo::planner {
 /// Delta t of Eq. 8.
 inline constexpr double kStepSeconds = 1.0;
 
-/// Number of the step, ((k - 1) dt, k dt], that holds `time_s`; 0 from a start.
+/// Number of the step, ((k - 1) dt, k dt], that holds `time_s`; 0 from a start. A millionth of a step after its end is
+/// still in it: sums of the same durations in another order must not differ.
 [[nodiscard]] inline std::int32_t step_of(double time_s) noexcept {
   const double steps = time_s / kStepSeconds - 1e-6;
   const auto whole = static_cast<std::int32_t>(steps);
   return steps <= 0.0 ? 0 : whole + (whole < steps ? 1 : 0);
 }
+/// In fixed point, two units of resolution after its end.
+[[nodiscard]] constexpr std::int32_t step_of(Fixed<16> time_s) noexcept {
+  const Fixed<16> rounded = time_s + Fixed<16>::from_raw((1 << 16) - 1 - 2);
+  return rounded.raw() <= 0 ? 0 : rounded.floor();
+}
 
 struct Sighting {
-  double time_s = 0.0;           ///< t_c: first seen by anybody
-  double credited_time_s = 0.0;  ///< first seen by the credited agent, in the same step
-  std::uint8_t agent = 0;        ///< who saw it at time_s
-  std::uint8_t credited = 0;     ///< w of Eq. 5: the lowest-numbered agent that sees it in the step of time_s
+  Seconds time_s{};           ///< t_c: first seen by anybody
+  Seconds credited_time_s{};  ///< first seen by the credited agent, in the same step
+  std::uint8_t agent = 0;     ///< who saw it at time_s
+  std::uint8_t credited = 0;  ///< w of Eq. 5: the lowest-numbered agent that sees it in the step of time_s
+  std::int32_t step = 0;      ///< k(c)
 };
 
 class FirstSightings {
  public:
-  /// Forgets everything. Cost: constant, but once in 2^32 calls.
-  void clear() noexcept {
-    if (++epoch_ == 0) {
-      entries_.fill({});
-      epoch_ = 1;
-    }
-  }
+  /// Forgets everything, for maps of `cells` cells. Cost: the cells, eight bytes each.
+  void clear(int cells) noexcept { std::fill_n(until_s_.begin(), cells, kNever); }
 
-  [[nodiscard]] bool seen(Cell c) const noexcept { return entries_[index(c)].epoch == epoch_; }
+  [[nodiscard]] bool seen(Cell c) const noexcept { return until_s_[index(c)] != kNever; }
   /// Of a cell that was seen.
-  [[nodiscard]] const Sighting& of(Cell c) const noexcept { return entries_[index(c)].sighting; }
+  [[nodiscard]] const Sighting& of(Cell c) const noexcept { return sightings_[index(c)]; }
 
-  /// Takes that `agent` sees `c` at `time_s`, in any order of times and agents. True when nobody saw it before.
-  bool see(Cell c, int agent, double time_s) noexcept {
-    Entry& entry = entries_[index(c)];
-    Sighting& s = entry.sighting;
-    const auto who = static_cast<std::uint8_t>(agent);
-    if (entry.epoch != epoch_) {
-      entry = {{time_s, time_s, who, who}, epoch_};
-      return true;
-    }
-    if (time_s < s.time_s || s.credited > who || (s.credited == who && time_s < s.credited_time_s)) {
-      merge(s, who, time_s);
-    }
-    return false;
+  /// Takes that `agent` sees `c` at `time_s`. Agents come one after the other, the lowest first, and each in the order of
+  /// its times: then the first of two that are equal is the one that counts. True when nobody saw it before.
+  bool see(Cell c, int agent, Seconds time_s) noexcept {
+    return time_s < until_s_[index(c)] && take(c, static_cast<std::uint8_t>(agent), time_s);
   }
 
  private:
-  struct Entry {
-    Sighting sighting;
-    std::uint32_t epoch = 0;  // the sighting counts when it is the present one
-  };
+#if IVO_PLANNER_FIXED
+  static constexpr Seconds kNever = Seconds::from_raw(std::int64_t{1} << 62);
+#else
+  static constexpr Seconds kNever = 1e300;
+#endif
 
-  static void merge(Sighting& s, std::uint8_t who, double time_s) noexcept {
+  bool take(Cell c, std::uint8_t who, Seconds time_s) noexcept {
+    Seconds& until_s = until_s_[index(c)];
+    Sighting& s = sightings_[index(c)];
     const std::int32_t step = step_of(time_s);
-    const std::int32_t known = step_of(s.time_s);
-    if (step > known) {
-      return;
+    const bool first = until_s == kNever;
+    if (!first && step > s.step) {
+      return false;
     }
-    if (step < known || who < s.credited || (who == s.credited && time_s < s.credited_time_s)) {
+    if (first || step < s.step) {
       s.credited = who;
       s.credited_time_s = time_s;
+      s.step = step;
+      until_s = Seconds(step) + Seconds(1e-3);  // later than this it is another step; the step itself decides
     }
-    if (time_s < s.time_s || (time_s == s.time_s && who < s.agent)) {
+    if (first || time_s < s.time_s) {
       s.time_s = time_s;
       s.agent = who;
     }
+    return first;
   }
 
-  std::uint32_t epoch_ = 0;
-  std::array<Entry, limits::kCells> entries_{};
+  std::array<Seconds, limits::kCells> until_s_{};
+  std::array<Sighting, limits::kCells> sightings_{};
 };
 
 }  // namespace ivo::planner

@@ -1,8 +1,10 @@
 #include "planner/search/path_score.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "planner/numeric/index.hpp"
+#include "planner/world/sight_disc.hpp"
 #include "planner/world/visibility.hpp"
 
 namespace ivo::planner {
@@ -24,43 +26,116 @@ double length_m(std::span<const Point> waypoints) noexcept {
   return sum_m;
 }
 
-void PathScorer::look(const Cells& cells, const Belief& belief, int agent, double radius_m, Point from,
-                      double time_s) noexcept {
-  for_each_seen(cells, from, radius_m, [&](Cell c) {
-    if (belief.mass[index(c)] > 0.0) {
-      (void)sightings_.see(c, agent, time_s);
-    }
-  });
-}
-
-void PathScorer::look_along(const Cells& cells, const Belief& belief, int agent, const WaypointPath& path) noexcept {
-  double time_s = 0.0;
-  for (std::size_t i = 0; i < path.waypoints.size(); ++i) {
-    const Point to = path.waypoints[i];
-    if (i == 0) {
-      look(cells, belief, agent, path.sight_radius_m, to, 0.0);
-      continue;
-    }
-    const Point from = path.waypoints[i - 1];
-    const double length = distance_m(from, to);
-    const int points = sight_points(length, cells.cell_m());
-    const double point_s = length / path.speed_mps / points;
-    for (int k = 1; k <= points; ++k) {
-      look(cells, belief, agent, path.sight_radius_m, sight_point(from, to, k, points), time_s + k * point_s);
-    }
-    time_s += points * point_s;  // of the last sight point to the last bit
-  }
-}
-
 PlanScore PathScorer::score(const Cells& cells, const Belief& belief, std::span<const WaypointPath> paths,
                             double max_unseen_mass) noexcept {
-  sightings_.clear();
-  for (std::size_t m = 0; m < paths.size(); ++m) {
-    look_along(cells, belief, static_cast<int>(m), paths[m]);
+  start(cells, belief, paths, max_unseen_mass);
+  while (!done()) {
+    (void)advance(1 << 20);
   }
+  return score();
+}
+
+void PathScorer::start(const Cells& cells, const Belief& belief, std::span<const WaypointPath> paths,
+                       double max_unseen_mass) noexcept {
+  cells_ = &cells;
+  belief_ = &belief;
+  paths_.clear();
+  for (const WaypointPath& path : paths) {
+    (void)paths_.push_back(path);
+  }
+  max_unseen_mass_ = max_unseen_mass;
+  sightings_.clear(cells.count());
   expected_.clear();
-  expected_.add(belief, sightings_, 0, belief.mass_cell_count);
-  return expected_.score(belief, max_unseen_mass);
+  phase_ = Phase::kLook;
+  begin_agent(0);
+}
+
+void PathScorer::begin_agent(int agent) noexcept {
+  agent_ = agent;
+  leg_ = 0;
+  leg_begin_s_ = Seconds{};
+  if (agent == static_cast<int>(paths_.size())) {
+    cell_ = 0;
+    phase_ = Phase::kSum;
+    return;
+  }
+  seen_.open(cells_->columns(), cells_->rows());
+  if (!paths_[index(agent)].waypoints.empty()) {
+    (void)look(paths_[index(agent)].waypoints[0], Seconds{});
+  }
+  begin_leg();
+}
+
+void PathScorer::begin_leg() noexcept {
+  const WaypointPath& path = paths_[index(agent_)];
+  point_ = 1;
+  points_ = 0;
+  if (leg_ + 1 < path.waypoints.size()) {
+    const double length = distance_m(path.waypoints[leg_], path.waypoints[leg_ + 1]);
+    points_ = sight_points(length, cells_->cell_m());
+    pace_ = Pace(length / (points_ * path.speed_mps));
+  }
+}
+
+int PathScorer::advance(int rows) noexcept {
+  int work = 1;
+  while (phase_ == Phase::kLook && work <= rows) {
+    const WaypointPath& path = paths_[index(agent_)];
+    if (leg_ + 1 >= path.waypoints.size()) {
+      begin_agent(agent_ + 1);
+      work += 32;
+    } else if (point_ > points_) {
+      leg_begin_s_ += after_points(pace_, points_);  // of the last sight point to the last bit
+      ++leg_;
+      begin_leg();
+    } else {
+      work += look(sight_point(path.waypoints[leg_], path.waypoints[leg_ + 1], point_, points_),
+                   leg_begin_s_ + after_points(pace_, point_));
+      ++point_;
+    }
+  }
+  if (phase_ == Phase::kSum && work <= rows) {
+    const int count = std::min(rows - work + 1, belief_->mass_cell_count - cell_);
+    expected_.add(*belief_, sightings_, cell_, count);
+    cell_ += count;
+    work += count;
+    if (cell_ == belief_->mass_cell_count) {
+      phase_ = Phase::kDone;
+    }
+  }
+  return work;
+}
+
+// Only cells that this agent has not seen before: later looks at them change nothing.
+int PathScorer::look(Point from, Seconds time_s) noexcept {
+  const SightDisc disc(*cells_, from, paths_[index(agent_)].sight_radius_m);
+  for (int row = disc.first_row(); row <= disc.last_row(); ++row) {
+    const SightDisc::Run run = disc.run(row);
+    for (int byte = run.first / 8; run.first <= run.last && byte * 8 <= run.last; byte += 8) {
+      const int low = std::max(0, run.first - 8 * byte);
+      const int high = std::min(63, run.last - 8 * byte);
+      const std::uint64_t inside = (~std::uint64_t{0} >> static_cast<unsigned>(63 - (high - low)))
+                                   << static_cast<unsigned>(low);
+      const std::uint64_t known = seen_.window(row, byte);
+      std::uint64_t fresh = inside & ~known;
+      if (fresh == 0) {
+        continue;
+      }
+      if (!disc.open()) {
+        std::uint64_t hidden = 0;
+        for_each_bit(fresh, [&](int bit) {
+          if (!line_of_sight(*cells_, from, cells_->at(8 * byte + bit, row))) {
+            hidden |= std::uint64_t{1} << static_cast<unsigned>(bit);
+          }
+        });
+        fresh &= ~hidden;
+      }
+      seen_.set_window(row, byte, known | fresh);
+      const Cell first = cells_->at(8 * byte, row);
+      for_each_bit(fresh, [&](int bit) { (void)sightings_.see(first + bit, agent_, time_s); });
+    }
+  }
+  return disc.last_row() - disc.first_row() + 1;
 }
 
 }  // namespace ivo::planner

@@ -6,12 +6,14 @@
 #include <span>
 
 #include "config/base/geometry.hpp"
+#include "config/base/static_vector.hpp"
 #include "config/limits.hpp"
 #include "planner/search/belief.hpp"
 #include "planner/search/expected_time.hpp"
 #include "planner/search/first_sightings.hpp"
 #include "planner/search/plan.hpp"
 #include "planner/world/cells.hpp"
+#include "planner/world/seen_map.hpp"
 
 namespace ivo::planner {
 
@@ -25,23 +27,50 @@ struct WaypointPath {
 /// Metres along `waypoints`. Cost: a square root a waypoint.
 [[nodiscard]] double length_m(std::span<const Point> waypoints) noexcept;
 
-/// Large: its scratch is a sighting for each cell of the build's capacity.
 class PathScorer {
  public:
+  /// `sightings` is its scratch.
+  explicit PathScorer(FirstSightings& sightings) noexcept : sightings_(sightings) {}
+
   /// One path an agent, in the agents' order; what a path does after it last saw something new costs nothing. Who may
-  /// go where is not asked. `max_unseen_mass` decides what is complete. Cost: sight points times the disc, each of its
-  /// cells with a line of sight where something occludes.
+  /// go where is not asked. `max_unseen_mass` decides what is complete. Cost: sight points times the disc's rows, and a
+  /// line of sight for each new cell where something occludes.
   PlanScore score(const Cells& cells, const Belief& belief, std::span<const WaypointPath> paths,
                   double max_unseen_mass) noexcept;
 
+  /// The same in parts. What the arguments refer to lasts until done().
+  void start(const Cells& cells, const Belief& belief, std::span<const WaypointPath> paths,
+             double max_unseen_mass) noexcept;
+  /// Up to about `rows` rows of discs and cells of the sum. Returns the work done.
+  int advance(int rows) noexcept;
+  [[nodiscard]] bool done() const noexcept { return phase_ == Phase::kDone; }
+  /// When done.
+  [[nodiscard]] PlanScore score() const noexcept { return expected_.score(*belief_, max_unseen_mass_); }
+
   /// Of the last score: when the agent's path ends, where it last sees something new; 0 when it never does.
-  [[nodiscard]] double path_end_s(int agent) const noexcept { return expected_.path_end_s(agent); }
+  [[nodiscard]] double path_end_s(int agent) const noexcept { return to_double(expected_.path_end_s(agent)); }
 
  private:
-  void look(const Cells& cells, const Belief& belief, int agent, double radius_m, Point from, double time_s) noexcept;
-  void look_along(const Cells& cells, const Belief& belief, int agent, const WaypointPath& path) noexcept;
+  enum class Phase : std::uint8_t { kLook, kSum, kDone };
 
-  FirstSightings sightings_;
+  void begin_agent(int agent) noexcept;
+  void begin_leg() noexcept;
+  int look(Point from, Seconds time_s) noexcept;
+
+  const Cells* cells_ = nullptr;
+  const Belief* belief_ = nullptr;
+  StaticVector<WaypointPath, limits::kAgents> paths_;
+  double max_unseen_mass_ = 0.0;
+  Phase phase_ = Phase::kDone;
+  int agent_ = 0;
+  std::size_t leg_ = 0;  // to waypoint leg_ + 1
+  int point_ = 0;
+  int points_ = 0;
+  Pace pace_{};
+  Seconds leg_begin_s_{};
+  int cell_ = 0;
+  SeenMap seen_;  // by the agent whose turn it is
+  FirstSightings& sightings_;
   ExpectedTime expected_;
 };
 

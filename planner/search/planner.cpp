@@ -1,7 +1,10 @@
 #include "planner/search/planner.hpp"
 
 #include <algorithm>
+#include <cmath>
 
+#include "planner/search/problem_checks.hpp"
+#include "planner/world/graph_table.hpp"
 #include "planner/world/visibility.hpp"
 
 namespace ivo::planner {
@@ -9,6 +12,9 @@ namespace {
 
 // K is four times the least time in which the team could sweep what it can observe.
 constexpr double kSubPriorHorizon = 4.0;
+
+// Of MMAS, before its best plan is improved.
+constexpr int kFastGenerations = 5;
 
 void fill_prior(const Cells& cells, const PriorChoice& prior, std::span<double> mass) noexcept {
   if (const auto* components = std::get_if<std::span<const GaussianComponent>>(&prior)) {
@@ -23,9 +29,10 @@ void fill_prior(const Cells& cells, const PriorChoice& prior, std::span<double> 
 }  // namespace
 
 Refusal Planner::prepare(const SearchProblem& problem) noexcept {
-  phase_ = Phase::kDone;
-  has_best_ = false;
-  parameters_ = problem.colony;
+  ready_ = false;
+  if (const Refusal refusal = check(problem)) {
+    return refusal;
+  }
   if (const Refusal refusal = cells_.build(problem.map, problem.cell_m)) {
     return refusal;
   }
@@ -42,188 +49,155 @@ Refusal Planner::prepare(const SearchProblem& problem) noexcept {
     speeds_mps_[m] = agent.speed_mps;
     swept_m2_a_second += 2.0 * agent.sight_radius_m * agent.speed_mps;
   }
-  if (const Refusal refusal = graph_.build(problem.map, problem.graph, bodies)) {
+  if (const Refusal refusal = problem.graph_table != nullptr ? graph_.load(*problem.graph_table, bodies)
+                                                             : graph_.build(problem.map, problem.graph, bodies)) {
     return refusal;
   }
 
-  const std::span<double> mass(belief_.mass.data(), index(cells_.count()));
+  const std::span<double> mass(raw_mass_.data(), index(cells_.count()));
   fill_prior(cells_, problem.prior, mass);
-  if (const Refusal refusal = sight_.build(cells_, graph_, radii_m, mass)) {
+  if (const Refusal refusal = sight_.build(cells_, graph_, radii_m)) {
     return refusal;
   }
-  if (const Refusal refusal = normalise(sight_, cells_.count(), graph_.agents(), belief_)) {
+  if (const Refusal refusal = normalise(cells_, sight_, graph_.agents(), mass, belief_)) {
     return refusal;
   }
   const double observable_m2 = belief_.mass_cell_count * cells_.cell_m() * cells_.cell_m();
   belief_.sub_prior_steps = step_of(kSubPriorHorizon * observable_m2 / swept_m2_a_second);
-  if (!problem.sub_priors.empty()) {
-    for (std::size_t m = 0; m < bodies.size(); ++m) {
-      fill_prior(cells_, problem.sub_priors[m], std::span<double>(belief_.sub_mass[m].data(), index(cells_.count())));
-    }
-    deal(sight_, belief_, left_without_sub_prior_);
-  } else if (const Refusal refusal = divide(cells_, sight_, preferred, belief_, left_without_sub_prior_)) {
+  const auto* components = std::get_if<std::span<const GaussianComponent>>(&problem.prior);
+  const Refusal refusal =
+      std::holds_alternative<std::monostate>(problem.sub_priors)
+          ? divide(cells_, sight_, preferred, belief_, left_without_sub_prior_)
+          : give_sub_priors(cells_, sight_, problem.sub_priors,
+                            components != nullptr ? *components : std::span<const GaussianComponent>(), belief_,
+                            left_without_sub_prior_);
+  if (refusal) {
     return refusal;
   }
-  start_colony();
+  build_bounds(problem);
+  fill_paces();
+  profile_ = problem.colony.profile;
+  generations_ = problem.colony.generations;
+  improving_ = false;
+  ColonyParameters colony = problem.colony;
+  if (profile_ == Profile::kFast) {
+    open_improver(problem);
+    if (improvable_) {
+      colony.generations = std::min(kFastGenerations, generations_);
+    }
+  }
+  colony_.start(colony);
+  ready_ = true;
   return {};
 }
 
-void Planner::start_colony() noexcept {
-  trails_.start(graph_, parameters_.rho, parameters_.beta);
-  rng_ = Rng(parameters_.seed);
-  generation_ = 0;
-  ants_done_ = 0;
-  phase_ = Phase::kAnts;
-  ant_.start(parameters_.ant);
+void Planner::fill_paces() noexcept {
+  for (int m = 0; m < graph_.agents(); ++m) {
+    for (Edge e = 0; e < graph_.edges(); ++e) {
+      paces_[index(m)][index(e)] = Pace(graph_.length_m(e) / (sight_.points(e) * speeds_mps_[index(m)]));
+    }
+  }
+}
+
+void Planner::open_improver(const SearchProblem& problem) noexcept {
+  Bodies bodies;
+  for (const SearchAgent& agent : problem.agents) {
+    (void)bodies.push_back({.kind = agent.body.kind,
+                            .footprint_radius_m = agent.body.footprint_radius_m,
+                            .sight_radius_m = agent.sight_radius_m,
+                            .restricted = agent.body.restricted});
+  }
+  improvable_ = improver_.open(problem.map, bodies, problem.graph.clearance_m, speeds_mps_,
+                               {.max_unseen_mass = problem.colony.ant.max_unseen_mass, .seed = problem.colony.seed});
+}
+
+void Planner::build_bounds(const SearchProblem& problem) noexcept {
+  StaticVector<BoundAgent, limits::kAgents> agents;
+  for (const SearchAgent& agent : problem.agents) {
+    (void)agents.push_back({.walker = {agent.body.start, agent.body.kind, agent.body.footprint_radius_m},
+                            .speed_mps = agent.speed_mps,
+                            .sight_radius_m = agent.sight_radius_m});
+  }
+  bounds_.build(problem.map, cells_, belief_, agents.span());
 }
 
 Progress Planner::step(Budget budget) noexcept {
-  for (int left = budget.units; left > 0 && phase_ != Phase::kDone;) {
-    left -= advance();
+  for (int left = budget.units; left > 0 && !progress().done;) {
+    if (improving_) {
+      left -= improver_.advance(Colony::kRowsAPart);
+    } else if (!colony_.done()) {
+      left -= colony_.advance();
+    } else {
+      improver_.start(colony_.best());
+      improving_ = true;
+      --left;
+    }
   }
   return progress();
 }
 
 Progress Planner::progress() const noexcept {
-  return {.generation = generation_,
-          .generations = parameters_.generations,
-          .done = phase_ == Phase::kDone,
-          .has_plan = has_best_,
-          .best = best_.score};
-}
-
-Bounds Planner::bounds(double /*unseen_mass*/) const noexcept { return {}; }
-
-int Planner::advance() noexcept {
-  switch (phase_) {
-    case Phase::kAnts:
-      return ant_.done() ? end_ant() : ant_.advance(rng_, kRowsAPart);
-    case Phase::kRaise:
-    case Phase::kEvaporate:
-    case Phase::kClamp:
-      return sweep_trails();
-    case Phase::kDone:
-      break;
+  Progress progress{.generation = colony_.generation(),
+                    .generations = generations_,
+                    .done = !ready_,
+                    .has_plan = ready_ && colony_.has_best(),
+                    .best = {}};
+  if (!ready_) {
+    return progress;
   }
-  return 0;
-}
-
-double Planner::cost(const PlanScore& score) const noexcept {
-  return belief_.has_sub_priors ? score.expected_sub_prior_time_s : score.expected_time_s;
-}
-
-bool Planner::better(const PlanScore& a, const PlanScore& b) const noexcept {
-  if (a.complete != b.complete) {
-    return a.complete;
+  const bool improves = profile_ == Profile::kFast && improvable_;
+  progress.generation += improving_ ? improver_.generation() : 0;
+  progress.done = colony_.done() && (!improves || progress.generation >= generations_);
+  if (progress.has_plan) {
+    progress.best = improved() ? improver_.best_score() : colony_.best().score;
   }
-  return a.complete ? cost(a) < cost(b) : a.unseen_mass < b.unseen_mass;
-}
-
-int Planner::end_ant() noexcept {
-  int work = 1;
-  if (ants_done_ == 0 || better(ant_.score(), generation_best_.score)) {
-    ant_.finish(generation_best_);
-    for (const EdgePath& path : generation_best_.paths) {
-      work += static_cast<int>(path.size());
-    }
-  }
-  ++ants_done_;
-  if (ants_done_ < parameters_.ants) {
-    ant_.start(parameters_.ant);
-    return work;
-  }
-  return work + end_ants();
-}
-
-int Planner::end_ants() noexcept {
-  ants_done_ = 0;
-  ++generation_;
-  if (!has_best_ || better(generation_best_.score, best_.score)) {
-    best_ = generation_best_;
-    has_best_ = true;
-    trails_.set_limits(std::max(cost(best_.score), kStepSeconds));
-  }
-  if (generation_ >= parameters_.generations || cost(best_.score) <= 0.0) {
-    phase_ = Phase::kDone;  // nothing is cheaper than a plan that sees everything from the starts
-    return 1;
-  }
-  sweep_agent_ = 0;
-  sweep_edge_ = 0;
-  phase_ = generation_ == 1 ? Phase::kRaise : Phase::kEvaporate;
-  return 1;
-}
-
-// To tau_max after generation 1; then evaporation, deposit, clamp: over all trails, some rows at a time.
-int Planner::sweep_trails() noexcept {
-  const Edge count = std::min<Edge>(kRowsAPart, graph_.edges() - sweep_edge_);
-  if (phase_ == Phase::kRaise) {
-    trails_.raise_to_max(sweep_agent_, sweep_edge_, count);
-  } else if (phase_ == Phase::kEvaporate) {
-    trails_.evaporate(sweep_agent_, sweep_edge_, count);
-  } else {
-    trails_.clamp(sweep_agent_, sweep_edge_, count);
-  }
-  sweep_edge_ += count;
-  if (sweep_edge_ < graph_.edges()) {
-    return count + 1;
-  }
-  sweep_edge_ = 0;
-  ++sweep_agent_;
-  if (sweep_agent_ < graph_.agents()) {
-    return count + 1;
-  }
-  sweep_agent_ = 0;
-  if (phase_ == Phase::kRaise) {
-    phase_ = Phase::kEvaporate;
-    return count + 1;
-  }
-  if (phase_ == Phase::kEvaporate) {
-    phase_ = Phase::kClamp;
-    return count + 1 + deposit();
-  }
-  phase_ = Phase::kAnts;
-  ant_.start(parameters_.ant);
-  return count + 1;
-}
-
-int Planner::deposit() noexcept {
-  const Tour& depositor = rng_.unit() < parameters_.iteration_best ? generation_best_ : best_;
-  const double amount = 1.0 / std::max(cost(depositor.score), kStepSeconds);
-  int work = 0;
-  for (int m = 0; m < graph_.agents(); ++m) {
-    for (const Edge e : depositor.paths[index(m)]) {
-      trails_.deposit(m, e, amount);
-      ++work;
-    }
-  }
-  return work;
+  return progress;
 }
 
 void Planner::best_plan(Plan& plan) const noexcept {
-  IVO_CONTRACT(has_best_);
-  plan.paths.clear();
-  plan.score = best_.score;
+  IVO_CONTRACT(ready_ && colony_.has_best());
+  const Tour& best = colony_.best();
+  plan.score = improved() ? improver_.best_score() : best.score;
+  plan.paths.resize(index(graph_.agents()));
   for (int m = 0; m < graph_.agents(); ++m) {
-    plan.paths.resize(index(m) + 1);
     AgentPath& path = plan.paths[index(m)];
     path.waypoints.clear();
-    path.duration_s = best_.end_s[index(m)];
-    path.length_m = path.duration_s * speeds_mps_[index(m)];
     (void)path.waypoints.push_back(graph_.position(m));
-    Point from = graph_.position(m);
-    double left_m = path.length_m;
-    for (const Edge e : best_.paths[index(m)]) {
-      const Point to = graph_.position(graph_.head(e));
-      const double length_m = graph_.length_m(e);
-      // The last edge is cut at the sight point that shows the last new cell.
-      const int points = sight_.points(e);
-      const int last_point = length_m > 0 ? static_cast<int>(left_m / length_m * points + 0.5) : points;
-      const Point end = left_m < length_m ? sight_point(from, to, std::min(last_point, points), points) : to;
-      (void)path.waypoints.push_back(end);
-      left_m -= length_m;
-      from = to;
+    if (improved()) {
+      for (const Place& place : improver_.best_waypoints(m)) {
+        if (!(place == improver_.best_waypoints(m)[0])) {
+          (void)path.waypoints.push_back(improver_.point_at(place));
+        }
+      }
+    } else {
+      for (const Edge e : best.paths[index(m)]) {
+        (void)path.waypoints.push_back(graph_.position(graph_.head(e)));
+      }
     }
+    cut(path, improved() ? improver_.best_end_s(m) : to_double(best.end_s[index(m)]), speeds_mps_[index(m)]);
   }
+}
+
+// A path ends at the sight point that shows its last new cell.
+void Planner::cut(AgentPath& path, double end_s, double speed_mps) const noexcept {
+  path.duration_s = end_s;
+  path.length_m = end_s * speed_mps;
+  double left_m = path.length_m;
+  std::size_t kept = 1;
+  for (; kept < path.waypoints.size() && left_m > 1e-9; ++kept) {
+    const Point from = path.waypoints[kept - 1];
+    Point& to = path.waypoints[kept];
+    const double dx = to.x_m - from.x_m;
+    const double dy = to.y_m - from.y_m;
+    const double length_m = std::sqrt(dx * dx + dy * dy);
+    if (left_m < length_m) {
+      const int points = sight_points(length_m, cells_.cell_m());
+      const int last = static_cast<int>(left_m / length_m * points + 0.5);
+      to = sight_point(from, to, std::min(last, points), points);
+    }
+    left_m -= length_m;
+  }
+  path.waypoints.resize(kept);
 }
 
 }  // namespace ivo::planner

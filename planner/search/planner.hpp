@@ -9,9 +9,11 @@
 #include "planner/numeric/index.hpp"
 #include "planner/prior/preferences.hpp"
 #include "planner/prior/prior.hpp"
+#include "planner/prior/sub_priors.hpp"
 #include "planner/refusal.hpp"
-#include "planner/search/ant.hpp"
 #include "planner/search/bounds.hpp"
+#include "planner/search/colony.hpp"
+#include "planner/search/improver.hpp"
 #include "planner/search/plan.hpp"
 #include "planner/world/cells.hpp"
 #include "planner/world/graph.hpp"
@@ -25,37 +27,16 @@ struct SearchAgent {
   Areas preferred;
 };
 
-enum class Profile : std::uint8_t {
-  kPaper,  ///< the paper's MAX-MIN ant system
-  kFast,   ///< the same with iterated improvement
-};
-
-/// eta of Eq. 2 (model.md, "Search (MMAS)").
-enum class Heuristic : std::uint8_t { kTsp, kMts };
-
-/// Symbols as in model.md, "Search (MMAS)"; alpha is 1.
-struct ColonyParameters {
-  Profile profile = Profile::kFast;
-  Heuristic heuristic = Heuristic::kTsp;
-  int generations = 300;
-  int ants = 10;
-  int beta = 6;
-  double rho = 0.002;
-  double iteration_best = 0.5;  ///< probability that the generation's best deposits, not the best so far
-  AntParameters ant;
-  std::uint64_t seed = 1;
-};
-
 /// Uniform (monostate), a Gaussian mixture, or an image.
 using PriorChoice = std::variant<std::monostate, std::span<const GaussianComponent>, GreyView>;
-using PriorChoices = StaticVector<PriorChoice, limits::kAgents>;
 
 struct SearchProblem {
   SegmentedMap map;
   double cell_m = 0.25;
   GraphParameters graph;
+  const GraphTable* graph_table = nullptr;  ///< instead of building one; read by prepare() alone
   PriorChoice prior;
-  PriorChoices sub_priors;  ///< one an agent, given; empty: from the agents' preferred areas
+  SubPriorChoice sub_priors;  ///< given ones exclude preferred areas
   StaticVector<SearchAgent, limits::kAgents> agents;
   ColonyParameters colony;
 };
@@ -75,15 +56,15 @@ struct Progress {
 
 class Planner {
  public:
-  Planner() noexcept : ant_({graph_, sight_, belief_, speeds_mps_}, trails_) {}
+  Planner() noexcept = default;
   Planner(const Planner&) = delete;
   Planner& operator=(const Planner&) = delete;
 
-  /// Builds cells, graph, prior, sight table and sub-priors, and readies the colony. At start-up: its cost has no small
+  /// Builds cells, graph, prior, sight table and sub-priors, and readies the search. At start-up: its cost has no small
   /// bound. What it refuses, it names; after a refusal only prepare() may be called.
   [[nodiscard]] Refusal prepare(const SearchProblem& problem) noexcept;
 
-  /// Searches on for at most about `budget.units`; the last part may go over by one part (kRowsAPart rows). Nothing
+  /// Searches on for at most about `budget.units`; the last part may go over by one part (Colony::kRowsAPart). Nothing
   /// when done.
   Progress step(Budget budget) noexcept;
   [[nodiscard]] Progress progress() const noexcept;
@@ -92,8 +73,9 @@ class Planner {
   /// mass. Cost: the copy of its waypoints.
   void best_plan(Plan& plan) const noexcept;
 
-  /// What no plan that leaves `unseen_mass` can have a smaller ET_c than (bounds.hpp).
-  [[nodiscard]] Bounds bounds(double unseen_mass) const noexcept;
+  /// What no plan that leaves `unseen_mass` can be better than. Cost: bounds.hpp.
+  [[nodiscard]] Bounds bounds(double unseen_mass) const noexcept { return bounds_.at(unseen_mass); }
+  [[nodiscard]] const BoundTable& bound_table() const noexcept { return bounds_; }
 
   [[nodiscard]] const Cells& cells() const noexcept { return cells_; }
   [[nodiscard]] const Graph& graph() const noexcept { return graph_; }
@@ -102,38 +84,38 @@ class Planner {
   /// Agents whose preferences left them no mass of their own: they search p/M.
   [[nodiscard]] AgentSet left_without_sub_prior() const noexcept { return left_without_sub_prior_; }
 
- private:
-  static constexpr int kRowsAPart = 256;
-  enum class Phase : std::uint8_t { kAnts, kRaise, kEvaporate, kClamp, kDone };
+  /// A member and its bytes: where this object's memory goes.
+  struct Part {
+    const char* name;
+    std::size_t bytes;
+  };
+  [[nodiscard]] static std::span<const Part> parts() noexcept;
 
-  void start_colony() noexcept;
-  int advance() noexcept;
-  int end_ant() noexcept;
-  int end_ants() noexcept;
-  int deposit() noexcept;
-  int sweep_trails() noexcept;
-  [[nodiscard]] double cost(const PlanScore& score) const noexcept;
-  [[nodiscard]] bool better(const PlanScore& a, const PlanScore& b) const noexcept;
+ private:
+  void build_bounds(const SearchProblem& problem) noexcept;
+  void fill_paces() noexcept;
+  void open_improver(const SearchProblem& problem) noexcept;
+  [[nodiscard]] bool improved() const noexcept { return profile_ == Profile::kFast && improver_.has_best(); }
+  void cut(AgentPath& path, double end_s, double speed_mps) const noexcept;
 
   Cells cells_;
   Graph graph_;
+  std::array<double, limits::kCells> raw_mass_{};  // while preparing
   Belief belief_;
   SightTable sight_;
-  Trails trails_;
-  Ant ant_;
+  BoundTable bounds_;
+  EdgePaces paces_{};
+  World world_{cells_, graph_, sight_, belief_, paces_};
+  FirstSightings sightings_;  // scratch of whoever scores
+  Colony colony_{world_, sightings_};
   std::array<double, limits::kAgents> speeds_mps_{};
   AgentSet left_without_sub_prior_ = 0;
-
-  ColonyParameters parameters_;
-  Rng rng_;
-  Phase phase_ = Phase::kDone;
-  int generation_ = 0;  // finished
-  int ants_done_ = 0;   // of this generation
-  int sweep_agent_ = 0;
-  Edge sweep_edge_ = 0;
-  bool has_best_ = false;
-  Tour generation_best_;
-  Tour best_;
+  Improver improver_{world_, sightings_};
+  Profile profile_ = Profile::kFast;
+  int generations_ = 0;
+  bool improvable_ = false;
+  bool improving_ = false;
+  bool ready_ = false;
 };
 
 }  // namespace ivo::planner

@@ -7,6 +7,7 @@
 
 #include "config/limits.hpp"
 #include "planner/numeric/index.hpp"
+#include "planner/numeric/roulette.hpp"
 #include "planner/world/graph.hpp"
 
 namespace ivo::planner {
@@ -17,34 +18,41 @@ class Trails {
   void start(const Graph& graph, double rho, int beta) noexcept;
 
   /// tau^alpha eta^beta of Eq. 2, alpha 1.
-  [[nodiscard]] double attraction(int agent, Edge e) const noexcept {
-    return tau_[index(agent)][index(e)] * visibility_[index(e)];
+  [[nodiscard]] Weight attraction(int agent, Edge e) const noexcept {
+    return weight_of(tau_[index(agent)][index(e)], visibility_[index(e)]);
+  }
+  /// The same with a heuristic of the moment, eta^beta.
+  [[nodiscard]] Weight attraction(int agent, Edge e, Visibility visibility) const noexcept {
+    return weight_of(tau_[index(agent)][index(e)], visibility);
   }
 
-  /// tau_max = 1 / (rho C_best) and tau_min below it.
-  void set_limits(double best_cost) noexcept;
+  /// tau_max = 1 / (rho C_best) and tau_min below it; C in seconds, at least 1.
+  void set_limits(Mass best_cost) noexcept;
   /// To tau_max, for edges `first` to `first + count - 1` of an agent.
   void raise_to_max(int agent, Edge first, Edge count) noexcept;
   /// Eq. 1 for edges `first` to `first + count - 1` of an agent.
   void evaporate(int agent, Edge first, Edge count) noexcept;
   /// Eq. 3 for one edge.
-  void deposit(int agent, Edge e, double amount) noexcept { tau_[index(agent)][index(e)] += amount; }
+  void deposit(int agent, Edge e, Trail amount) noexcept { tau_[index(agent)][index(e)] += amount; }
+  /// 1 / C, of the depositing plan's cost.
+  [[nodiscard]] Trail amount_for(Mass cost) const noexcept;
   /// Back between the limits, for edges `first` to `first + count - 1` of an agent.
   void clamp(int agent, Edge first, Edge count) noexcept;
 
-  [[nodiscard]] double tau(int agent, Edge e) const noexcept { return tau_[index(agent)][index(e)]; }
-  [[nodiscard]] double tau_min(int agent) const noexcept { return tau_min_[index(agent)]; }
-  [[nodiscard]] double tau_max() const noexcept { return tau_max_; }
+  /// In fixed point all three times rho (roulette.hpp).
+  [[nodiscard]] Trail tau(int agent, Edge e) const noexcept { return tau_[index(agent)][index(e)]; }
+  [[nodiscard]] Trail tau_min(int agent) const noexcept { return tau_min_[index(agent)]; }
+  [[nodiscard]] Trail tau_max() const noexcept { return tau_max_; }
 
  private:
   int edges_ = 0;
   int agents_ = 0;
-  double rho_ = 0.0;
-  double tau_max_ = 1.0;
-  std::array<double, limits::kAgents> tau_min_{};
-  std::array<double, limits::kAgents> min_over_max_{};
-  std::array<std::array<double, limits::kEdges>, limits::kAgents> tau_{};
-  std::array<double, limits::kEdges> visibility_{};
+  Trail rho_{};
+  Trail tau_max_{};
+  std::array<Trail, limits::kAgents> tau_min_{};
+  std::array<Trail, limits::kAgents> min_over_max_{};
+  std::array<std::array<Trail, limits::kEdges>, limits::kAgents> tau_{};
+  std::array<Visibility, limits::kEdges> visibility_{};
 };
 
 }  // namespace ivo::planner

@@ -36,7 +36,10 @@ class Cells {
   [[nodiscard]] Cell at(int column, int row) const noexcept { return row * columns_ + column; }
   [[nodiscard]] int column(Cell c) const noexcept { return c % columns_; }
   [[nodiscard]] int row(Cell c) const noexcept { return c / columns_; }
-  [[nodiscard]] Point centre(Cell c) const noexcept { return {(column(c) + 0.5) * cell_m_, (row(c) + 0.5) * cell_m_}; }
+  [[nodiscard]] Point centre(int column, int row) const noexcept {
+    return {(column + 0.5) * cell_m_, (row + 0.5) * cell_m_};
+  }
+  [[nodiscard]] Point centre(Cell c) const noexcept { return centre(column(c), row(c)); }
 
   [[nodiscard]] bool obstacle(Cell c) const noexcept { return (flags_[index(c)] & kObstacle) != 0; }
   [[nodiscard]] bool occluder(Cell c) const noexcept { return (flags_[index(c)] & kOccluder) != 0; }

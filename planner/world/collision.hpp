@@ -10,6 +10,9 @@ namespace ivo::planner {
 
 /// A set of semantic classes, one bit each.
 using ClassSet = std::uint16_t;
+[[nodiscard]] constexpr bool holds(ClassSet set, SemanticClass c) noexcept {
+  return ((set >> static_cast<unsigned>(c)) & 1U) != 0;
+}
 
 [[nodiscard]] ClassSet obstacle_classes(const ClassTable& classes) noexcept;
 [[nodiscard]] ClassSet restricted_classes(const ClassTable& classes, AgentKind kind) noexcept;
@@ -20,8 +23,8 @@ using ClassSet = std::uint16_t;
 
 /// True when a disc of `radius_m` swept along the segment from `a` to `b` overlaps no pixel of a class in `blocked` and
 /// stays inside the border; touching is free, and libccd may take an overlap below 0.1 mm for a touch. Judged on the
-/// swept disc (a capsule) against runs of pixels; no heap. Cost: the pixels in the capsule's bounding box, and a query
-/// a run near it.
+/// swept disc (a capsule) against runs of pixels; no heap. Not there in a build without libccd. Cost: the pixels in the
+/// capsule's bounding box, and a query a run near it.
 [[nodiscard]] bool swept_disc_is_free(const SegmentedMap& map, ClassSet blocked, Point a, Point b,
                                       double radius_m) noexcept;
 

@@ -1,232 +1,92 @@
 #include "planner/world/graph.hpp"
 
 #include <algorithm>
-#include <cmath>
 
-#include "planner/world/collision.hpp"
-#include "planner/world/node_placement.hpp"
+#include "planner/world/distance.hpp"
+#include "planner/world/graph_table.hpp"
 
 namespace ivo::planner {
-namespace {
 
-double distance_m(Point a, Point b) noexcept {
-  const double dx = b.x_m - a.x_m;
-  const double dy = b.y_m - a.y_m;
-  return std::sqrt(dx * dx + dy * dy);
-}
-
-bool may_stand(const SegmentedMap& map, const GraphAgent& agent, Point p) noexcept {
-  const int column = static_cast<int>(p.x_m / map.resolution_m);
-  const int row = static_cast<int>(p.y_m / map.resolution_m);
-  const bool class_ok = !map.properties(map.at(column, row)).restricted[static_cast<std::size_t>(agent.kind)];
-  return class_ok && !contains(agent.restricted, p);
-}
-
-// Agents that may move straight from a to b: footprint clear of obstacles and restricted classes, path clear of
-// restricted areas.
-AgentSet agents_on(const SegmentedMap& map, const GraphAgents& agents, Point a, Point b) noexcept {
-  AgentSet open = 0;
-  double proved_radius_m = -1.0;  // the answer for the last footprint serves the next agent of the same kind and size
-  AgentKind proved_kind{};
-  bool proved_free = false;
+Refusal Graph::load(const GraphTable& table, const GraphAgents& agents) noexcept {
+  constexpr Refusal kUnfit{.code = RefusalCode::kGraphTableUnfit};
+  const std::size_t nodes = table.positions.size();
+  const std::size_t edges = table.heads.size();
+  if (nodes > positions_.size()) {
+    return {.code = RefusalCode::kTooManyNodes, .value = static_cast<double>(nodes), .limit = limits::kNodes};
+  }
+  if (edges > heads_.size()) {
+    return {.code = RefusalCode::kTooManyEdges, .value = static_cast<double>(edges), .limit = limits::kEdges};
+  }
+  if (table.first_edge.size() != nodes + 1 || table.open_to.size() != edges || !(table.spacing_m > 0.0) ||
+      table.agents != static_cast<int>(agents.size()) || agents.size() > nodes) {
+    return kUnfit;
+  }
   for (std::size_t m = 0; m < agents.size(); ++m) {
-    const GraphAgent& agent = agents[m];
-    if (!may_stand(map, agent, a) || !may_stand(map, agent, b) || touches(agent.restricted, a, b)) {
-      continue;
-    }
-    if (agent.footprint_radius_m != proved_radius_m || agent.kind != proved_kind) {
-      const auto blocked =
-          static_cast<ClassSet>(obstacle_classes(map.classes) | restricted_classes(map.classes, agent.kind));
-      proved_free = swept_disc_is_free(map, blocked, a, b, agent.footprint_radius_m);
-      proved_radius_m = agent.footprint_radius_m;
-      proved_kind = agent.kind;
-    }
-    if (proved_free) {
-      open = static_cast<AgentSet>(open | agent_bit(static_cast<int>(m)));
+    if (table.positions[m] != agents[m].start) {
+      return kUnfit;
     }
   }
-  return open;
-}
-
-}  // namespace
-
-Refusal Graph::build(const SegmentedMap& map, const GraphParameters& parameters, const GraphAgents& agents) noexcept {
-  constexpr double kWhole = 1e-9;  // 10 m / 2.5 m is 4 squares, whatever the rounding
-  const double columns = std::ceil(map.width_m() / parameters.spacing_m - kWhole);
-  const double rows = std::ceil(map.height_m() / parameters.spacing_m - kWhole);
-  if (columns * rows > static_cast<double>(kSquares)) {
-    return {.code = RefusalCode::kTooManySquares, .value = columns * rows, .limit = static_cast<double>(kSquares)};
+  spacing_m_ = table.spacing_m;
+  agents_ = table.agents;
+  nodes_ = static_cast<int>(nodes);
+  std::copy(table.positions.begin(), table.positions.end(), positions_.begin());
+  std::copy(table.first_edge.begin(), table.first_edge.end(), first_edge_.begin());
+  std::copy(table.heads.begin(), table.heads.end(), heads_.begin());
+  std::copy(table.open_to.begin(), table.open_to.end(), open_to_.begin());
+  if (this->edges() != static_cast<int>(edges) || !is_whole()) {
+    nodes_ = 0;
+    agents_ = 0;
+    first_edge_[0] = 0;
+    return kUnfit;
   }
-  columns_ = static_cast<int>(columns);
-  rows_ = static_cast<int>(rows);
-  spacing_m_ = parameters.spacing_m;
-  nodes_ = 0;
-  agents_ = static_cast<int>(agents.size());
-  square_node_.fill(kNone);
-  next_square_.fill(kNone);
-  first_square_.fill(kNone);
-
-  if (const Refusal refusal = place_starts(map, agents)) {
-    return refusal;
-  }
-  if (const Refusal refusal = place_nodes(map, parameters)) {
-    return refusal;
-  }
-  if (const Refusal refusal = connect(map, agents)) {
-    return refusal;
+  for (Node n = 0; n < nodes_; ++n) {
+    for (Edge e = first_edge(n); e < end_edge(n); ++e) {
+      lengths_m_[index(e)] = distance_m(position(n), position(head(e)));
+    }
   }
   reach();
   return {};
 }
 
-Refusal Graph::place_starts(const SegmentedMap& map, const GraphAgents& agents) noexcept {
-  constexpr double kRounding = 1e-9;  // a start exactly one footprint away is free
-  const ClassSet obstacles = obstacle_classes(map.classes);
-  for (std::size_t m = 0; m < agents.size(); ++m) {
-    const GraphAgent& agent = agents[m];
-    const int number = static_cast<int>(m);
-    if (!map.contains(agent.start)) {
-      return {.code = RefusalCode::kStartOutsideMap, .agent = number};
-    }
-    const double free_m = clearance(map, obstacles, agent.start, agent.footprint_radius_m);
-    if (free_m < agent.footprint_radius_m - kRounding) {
-      return {.code = RefusalCode::kStartBlocked, .agent = number, .value = free_m, .limit = agent.footprint_radius_m};
-    }
-    if (!may_stand(map, agent, agent.start)) {
-      return {.code = RefusalCode::kStartRestricted, .agent = number};
-    }
-    positions_[m] = agent.start;
-    ++nodes_;
+// Rows in order from 0 on; in a row, heads that ascend, none its own node, each with its way back for the same agents.
+bool Graph::is_whole() const noexcept {
+  if (first_edge_[0] != 0) {
+    return false;
   }
-  return {};
-}
-
-int Graph::square_of(Point p) const noexcept {
-  const int column = std::min(columns_ - 1, static_cast<int>(p.x_m / spacing_m_));
-  const int row = std::min(rows_ - 1, static_cast<int>(p.y_m / spacing_m_));
-  return row * columns_ + column;
-}
-
-// The nearest earlier node closer than h/4: a start, or the node of a square next to this one (ties: the earliest).
-Node Graph::merge_target(Point p, int column, int row) const noexcept {
-  Node nearest = kNone;
-  double nearest_m = spacing_m_ / 4;
-  const auto consider = [&](Node n) {
-    const double d = distance_m(positions_[index(n)], p);
-    if (d < nearest_m || (d == nearest_m && nearest != kNone && n < nearest)) {
-      nearest = n;
-      nearest_m = d;
-    }
-  };
-  for (Node start = 0; start < agents_; ++start) {
-    consider(start);
-  }
-  for (int y = std::max(0, row - 1); y <= row; ++y) {
-    for (int x = std::max(0, column - 1); x <= std::min(columns_ - 1, column + 1); ++x) {
-      if (const Node n = square_node_[index(y * columns_ + x)]; n != kNone) {
-        consider(n);
-      }
-    }
-  }
-  return nearest;
-}
-
-Refusal Graph::place_nodes(const SegmentedMap& map, const GraphParameters& parameters) noexcept {
-  for (int row = 0; row < rows_; ++row) {
-    for (int column = 0; column < columns_; ++column) {
-      const Square square{column * spacing_m_, row * spacing_m_, std::min((column + 1) * spacing_m_, map.width_m()),
-                          std::min((row + 1) * spacing_m_, map.height_m())};
-      const std::optional<Point> place = place_node(map, square, parameters.clearance_m);
-      if (!place) {
-        continue;
-      }
-      Node node = merge_target(*place, column, row);
-      if (node == kNone) {
-        if (nodes_ == limits::kNodes) {
-          return {.code = RefusalCode::kTooManyNodes, .value = nodes_ + 1.0, .limit = limits::kNodes};
-        }
-        node = nodes_++;
-        positions_[index(node)] = *place;
-      }
-      const int number = row * columns_ + column;
-      square_node_[index(number)] = node;
-      next_square_[index(number)] = first_square_[index(node)];
-      first_square_[index(node)] = number;
-    }
-  }
-  return {};
-}
-
-void Graph::collect_window(int square, Node n) noexcept {
-  const auto collect = [&](Node candidate) {
-    if (candidate != n && marked_for_[index(candidate)] != n) {
-      marked_for_[index(candidate)] = n;
-      scratch_[index(scratch_size_++)] = candidate;
-    }
-  };
-  const auto near = [&](int other) {
-    return std::abs(other % columns_ - square % columns_) <= kWindow &&
-           std::abs(other / columns_ - square / columns_) <= kWindow;
-  };
-  for (Node start = 0; start < agents_; ++start) {
-    if (near(square_of(positions_[index(start)]))) {
-      collect(start);
-    }
-  }
-  const int column = square % columns_;
-  const int row = square / columns_;
-  for (int y = std::max(0, row - kWindow); y <= std::min(rows_ - 1, row + kWindow); ++y) {
-    for (int x = std::max(0, column - kWindow); x <= std::min(columns_ - 1, column + kWindow); ++x) {
-      if (const Node node = square_node_[index(y * columns_ + x)]; node != kNone) {
-        collect(node);
-      }
-    }
-  }
-}
-
-// A node's neighbourhood is that of all its squares; a start's own square counts too, though another node may stand in
-// it.
-int Graph::collect_neighbours(Node n) noexcept {
-  scratch_size_ = 0;
-  if (n < agents_) {
-    collect_window(square_of(positions_[index(n)]), n);
-  }
-  for (int square = first_square_[index(n)]; square != kNone; square = next_square_[index(square)]) {
-    collect_window(square, n);
-  }
-  std::sort(scratch_.begin(), scratch_.begin() + scratch_size_);
-  return scratch_size_;
-}
-
-Refusal Graph::connect(const SegmentedMap& map, const GraphAgents& agents) noexcept {
-  marked_for_.fill(kNone);
-  Edge edge = 0;
   for (Node n = 0; n < nodes_; ++n) {
-    first_edge_[index(n)] = edge;
-    const int neighbours = collect_neighbours(n);
-    for (int i = 0; i < neighbours; ++i) {
-      const Node other = scratch_[index(i)];
-      AgentSet open = 0;
-      if (other < n) {
-        const Edge back = find(other, n);  // proved when `other` had its turn
-        open = back == kNone ? AgentSet{0} : open_to_[index(back)];
-      } else {
-        open = agents_on(map, agents, positions_[index(n)], positions_[index(other)]);
-      }
-      if (open == 0) {
-        continue;
-      }
-      if (edge == limits::kEdges) {
-        return {.code = RefusalCode::kTooManyEdges, .value = edge + 1.0, .limit = limits::kEdges};
-      }
-      heads_[index(edge)] = other;
-      lengths_m_[index(edge)] = distance_m(positions_[index(n)], positions_[index(other)]);
-      open_to_[index(edge)] = open;
-      ++edge;
+    if (end_edge(n) < first_edge(n) || end_edge(n) > edges()) {
+      return false;
     }
-    first_edge_[index(n) + 1] = edge;
   }
-  return {};
+  for (Node n = 0; n < nodes_; ++n) {
+    for (Edge e = first_edge(n); e < end_edge(n); ++e) {
+      const Node to = head(e);
+      const bool ascends = e == first_edge(n) || head(e - 1) < to;
+      if (to < 0 || to >= nodes_ || to == n || !ascends || (open_to(e) >> static_cast<unsigned>(agents_)) != 0) {
+        return false;
+      }
+    }
+  }
+  for (Node n = 0; n < nodes_; ++n) {
+    for (Edge e = first_edge(n); e < end_edge(n); ++e) {
+      const Edge back = find(head(e), n);
+      if (back == kNone || open_to(back) != open_to(e)) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+GraphTable Graph::table() const noexcept {
+  const std::size_t nodes = index(nodes_);
+  const std::size_t edges = index(this->edges());
+  return {.spacing_m = spacing_m_,
+          .agents = agents_,
+          .positions = {positions_.data(), nodes},
+          .first_edge = {first_edge_.data(), nodes + 1},
+          .heads = {heads_.data(), edges},
+          .open_to = {open_to_.data(), edges}};
 }
 
 Edge Graph::find(Node a, Node b) const noexcept {

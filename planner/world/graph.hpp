@@ -38,12 +38,19 @@ struct GraphAgent {
 };
 using GraphAgents = StaticVector<GraphAgent, limits::kAgents>;
 
+struct GraphTable;
+
 class Graph {
  public:
   /// Builds nodes and edges. Refuses a start outside the map, in or too near an obstacle, or restricted, and what is
   /// over a capacity. Cost: pixels for the nodes, then 24 swept-disc tests a node; heap-free.
   [[nodiscard]] Refusal build(const SegmentedMap& map, const GraphParameters& parameters,
                               const GraphAgents& agents) noexcept;
+  /// Takes a graph that was built elsewhere for these agents. Refuses what is over a capacity, not a graph, or not
+  /// theirs. Cost: the edges, each with a logarithm.
+  [[nodiscard]] Refusal load(const GraphTable& table, const GraphAgents& agents) noexcept;
+  /// This graph, for load(). Valid until the next build() or load().
+  [[nodiscard]] GraphTable table() const noexcept;
 
   [[nodiscard]] int nodes() const noexcept { return nodes_; }
   [[nodiscard]] int edges() const noexcept { return first_edge_[static_cast<std::size_t>(nodes_)]; }
@@ -69,6 +76,7 @@ class Graph {
   [[nodiscard]] Refusal place_starts(const SegmentedMap& map, const GraphAgents& agents) noexcept;
   [[nodiscard]] Refusal place_nodes(const SegmentedMap& map, const GraphParameters& parameters) noexcept;
   [[nodiscard]] Refusal connect(const SegmentedMap& map, const GraphAgents& agents) noexcept;
+  [[nodiscard]] bool is_whole() const noexcept;
   void reach() noexcept;
   [[nodiscard]] int square_of(Point p) const noexcept;
   [[nodiscard]] Node merge_target(Point p, int column, int row) const noexcept;

@@ -1,28 +1,41 @@
 #include "planner/world/sight_table.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "planner/numeric/index.hpp"
+#include "planner/world/sight_disc.hpp"
 #include "planner/world/visibility.hpp"
 
 namespace ivo::planner {
 namespace {
 
-constexpr std::int16_t kUnseen = -1;
-
-Refusal full(int events) noexcept {
-  return {.code = RefusalCode::kSightTableFull, .value = static_cast<double>(events), .limit = limits::kSightEvents};
+Refusal full(int words) noexcept {
+  return {.code = RefusalCode::kSightTableFull, .value = static_cast<double>(words), .limit = limits::kSightWords};
 }
 
 }  // namespace
 
-Refusal SightTable::build(const Cells& cells, const Graph& graph, const SightRadii& radii_m,
-                          std::span<const double> mass) noexcept {
-  events_ = 0;
+Refusal SightTable::build(const Cells& cells, const Graph& graph, const SightRadii& radii_m) noexcept {
+  word_count_ = 0;
+  swath_count_ = 0;
+  std::fill_n(observable_by_.begin(), cells.count(), AgentSet{0});
+  canvas_.open(cells.columns(), cells.rows());
+  painted_ = {cells.columns(), cells.rows(), -1, -1};
+  assign_layers(graph, radii_m);
+  for (int layer = 0; layer < layers_; ++layer) {
+    if (const Refusal refusal = add_nodes(cells, graph, layer)) {
+      return refusal;
+    }
+    if (const Refusal refusal = add_edges(cells, graph, layer)) {
+      return refusal;
+    }
+  }
+  return {};
+}
+
+void SightTable::assign_layers(const Graph& graph, const SightRadii& radii_m) noexcept {
   layers_ = 0;
-  mass_ = mass;
-  observable_by_.fill(0);
-  first_point_.fill(kUnseen);
   for (int agent = 0; agent < graph.agents(); ++agent) {
     const double radius_m = radii_m[index(agent)];
     int layer = 0;
@@ -37,52 +50,28 @@ Refusal SightTable::build(const Cells& cells, const Graph& graph, const SightRad
     layer_of_agent_[index(agent)] = layer;
     layer_agents_[index(layer)] = static_cast<AgentSet>(layer_agents_[index(layer)] | agent_bit(agent));
   }
-  for (int layer = 0; layer < layers_; ++layer) {
-    if (const Refusal refusal = add_nodes(cells, graph, layer)) {
-      return refusal;
-    }
-    if (const Refusal refusal = add_edges(cells, graph, layer)) {
-      return refusal;
-    }
-  }
-  return {};
-}
-
-bool SightTable::keep(Cell cell, int point) noexcept {
-  if (events_ == limits::kSightEvents) {
-    return false;
-  }
-  pool_[index(events_++)] = SightEvent(cell, point);
-  return true;
 }
 
 Refusal SightTable::add_nodes(const Cells& cells, const Graph& graph, int layer) noexcept {
   for (Node n = 0; n < graph.nodes(); ++n) {
     const auto agents = static_cast<AgentSet>(graph.reached_by(n) & layer_agents_[index(layer)]);
-    Rows& rows = node_rows_[index(layer)][index(n)];
-    rows = {events_, 0};
+    Record& record = node_records_[index(layer)][index(n)];
+    record = {swath_count_, 0};
     if (agents == 0) {
       continue;
     }
-    bool kept = true;
-    for_each_seen(cells, graph.position(n), layer_radius_m_[index(layer)], [&](Cell c) {
-      if (mass_[index(c)] > 0.0) {
-        kept = kept && keep(c, 0);
-        observable_by_[index(c)] = static_cast<AgentSet>(observable_by_[index(c)] | agents);
-      }
-    });
-    if (!kept) {
-      return full(events_);
+    paint(cells, graph.position(n), layer_radius_m_[index(layer)]);
+    if (const Refusal refusal = cut(cells, 0, 0, agents)) {
+      return refusal;
     }
-    rows.count = events_ - rows.first;
+    record.count = swath_count_ - record.first;
   }
   return {};
 }
 
-// Both directions of an edge have the same sight points, so one look serves both: a cell's first point from one end is
-// its last from the other.
+// Both directions of an edge have the same sight points, so one record serves both.
 Refusal SightTable::add_edges(const Cells& cells, const Graph& graph, int layer) noexcept {
-  EdgeRows& rows = edge_rows_[index(layer)];
+  auto& records = edge_records_[index(layer)];
   for (Node n = 0; n < graph.nodes(); ++n) {
     for (Edge e = graph.first_edge(n); e < graph.end_edge(n); ++e) {
       const Node head = graph.head(e);
@@ -91,63 +80,108 @@ Refusal SightTable::add_edges(const Cells& cells, const Graph& graph, int layer)
       }
       const Edge back = graph.find(head, n);
       const int points = sight_points(graph.length_m(e), cells.cell_m());
-      if (points > SightEvent::kMaxPoint) {
-        return {
-            .code = RefusalCode::kEdgeTooLong, .value = static_cast<double>(points), .limit = SightEvent::kMaxPoint};
+      if (points > kMaxPoint) {
+        return {.code = RefusalCode::kEdgeTooLong, .value = static_cast<double>(points), .limit = kMaxPoint};
       }
       points_[index(e)] = points_[index(back)] = static_cast<std::int16_t>(points);
-      rows[index(e)] = rows[index(back)] = {events_, 0};
-      const auto agents = static_cast<AgentSet>(graph.open_to(e) & layer_agents_[index(layer)]);
-      if (agents == 0) {
-        continue;
+      against_[index(e)] = false;
+      against_[index(back)] = true;
+      records[index(e)] = {swath_count_, 0};
+      const auto agents =
+          static_cast<AgentSet>((graph.open_to(e) | graph.open_to(back)) & layer_agents_[index(layer)]);
+      if (agents != 0) {
+        if (const Refusal refusal = add_edge(cells, graph.position(n), graph.position(head), points,
+                                             layer_radius_m_[index(layer)], records[index(e)], agents)) {
+          return refusal;
+        }
       }
-      look_along(cells, graph.position(n), graph.position(head), points, layer_radius_m_[index(layer)]);
-      bool kept = true;
-      for (int i = 0; i < seen_count_; ++i) {
-        const Cell c = seen_[index(i)];
-        observable_by_[index(c)] = static_cast<AgentSet>(observable_by_[index(c)] | agents);
-        kept = kept && (first_point_[index(c)] == 0 || keep(c, first_point_[index(c)]));
-      }
-      rows[index(e)].count = events_ - rows[index(e)].first;
-      rows[index(back)].first = events_;
-      for (int i = 0; i < seen_count_; ++i) {
-        const Cell c = seen_[index(i)];
-        kept = kept && (last_point_[index(c)] == points || keep(c, points - last_point_[index(c)]));
-        first_point_[index(c)] = kUnseen;
-      }
-      rows[index(back)].count = events_ - rows[index(back)].first;
-      if (!kept) {
-        return full(events_);
-      }
+      records[index(back)] = records[index(e)];
     }
   }
   return {};
 }
 
-void SightTable::look_along(const Cells& cells, Point a, Point b, int points, double radius_m) noexcept {
-  seen_count_ = 0;
-  for (int k = 0; k <= points; ++k) {
-    for_each_seen(cells, sight_point(a, b, k, points), radius_m, [&](Cell c) {
-      if (mass_[index(c)] <= 0.0) {
-        return;
+// An edge is cut into equal parts, long enough to save words, short enough to say when: a sight radius each, twice that
+// where the edge is long and hardly ever taken.
+Refusal SightTable::add_edge(const Cells& cells, Point a, Point b, int points, double radius_m, Record& record,
+                             AgentSet agents) noexcept {
+  const int a_radius = std::max(1, static_cast<int>(2.0 * radius_m / cells.cell_m()));  // points, half a cell apart
+  const int longest = points > 3 * a_radius ? 2 * a_radius : a_radius;
+  const int parts = (points + longest - 1) / longest;
+  for (int part = 0; part < parts; ++part) {
+    const int first = points * part / parts;
+    const int last = points * (part + 1) / parts;
+    for (int k = first; k <= last; ++k) {
+      paint(cells, sight_point(a, b, k, points), radius_m);
+    }
+    if (const Refusal refusal = cut(cells, first, last, agents)) {
+      return refusal;
+    }
+  }
+  record.count = swath_count_ - record.first;
+  return {};
+}
+
+void SightTable::paint(const Cells& cells, Point from, double radius_m) noexcept {
+  const SightDisc disc(cells, from, radius_m);
+  for (int row = disc.first_row(); row <= disc.last_row(); ++row) {
+    const SightDisc::Run run = disc.run(row);
+    if (run.first > run.last) {
+      continue;
+    }
+    painted_.first_row = std::min(painted_.first_row, row);
+    painted_.last_row = std::max(painted_.last_row, row);
+    painted_.first_column = std::min(painted_.first_column, run.first);
+    painted_.last_column = std::max(painted_.last_column, run.last);
+    if (disc.open()) {
+      canvas_.set_run(row, run.first, run.last);
+      continue;
+    }
+    for (int column = run.first; column <= run.last; ++column) {
+      if (!canvas_.test(column, row) && line_of_sight(cells, from, cells.at(column, row))) {
+        canvas_.set(column, row);
       }
-      if (first_point_[index(c)] == kUnseen) {
-        first_point_[index(c)] = static_cast<std::int16_t>(k);
-        seen_[index(seen_count_++)] = c;
-      }
-      last_point_[index(c)] = static_cast<std::int16_t>(k);
-    });
+    }
   }
 }
 
-std::span<const SightEvent> SightTable::from_node(int agent, Node n) const noexcept {
-  const Rows rows = node_rows_[index(layer_of_agent_[index(agent)])][index(n)];
-  return {pool_.data() + rows.first, static_cast<std::size_t>(rows.count)};
-}
-
-std::span<const SightEvent> SightTable::along_edge(int agent, Edge e) const noexcept {
-  const Rows rows = edge_rows_[index(layer_of_agent_[index(agent)])][index(e)];
-  return {pool_.data() + rows.first, static_cast<std::size_t>(rows.count)};
+// What was painted becomes swaths, one a window of 64 columns; the canvas is empty again.
+Refusal SightTable::cut(const Cells& cells, int first_point, int last_point, AgentSet agents) noexcept {
+  for (int byte = painted_.first_column / 8; byte * 8 <= painted_.last_column; byte += 8) {
+    Swath swath{.first_row = painted_.first_row,
+                .first_byte = byte,
+                .first_word = word_count_,
+                .rows = 0,
+                .first_point = static_cast<std::int16_t>(first_point),
+                .last_point = static_cast<std::int16_t>(last_point)};
+    int last_row = -1;
+    for (int row = painted_.first_row; row <= painted_.last_row; ++row) {
+      const std::uint64_t word = canvas_.window(row, byte);
+      if (word != 0) {
+        swath.first_row = last_row < 0 ? row : swath.first_row;
+        last_row = row;
+      }
+    }
+    if (last_row < 0) {
+      continue;
+    }
+    swath.rows = static_cast<std::int16_t>(last_row - swath.first_row + 1);
+    if (word_count_ + swath.rows > limits::kSightWords || swath_count_ == limits::kSwaths) {
+      return full(word_count_ + swath.rows);
+    }
+    for (int row = swath.first_row; row <= last_row; ++row) {
+      const std::uint64_t word = canvas_.window(row, byte);
+      words_[index(word_count_++)] = word;
+      canvas_.set_window(row, byte, 0);
+      for_each_bit(word, [&](int bit) {
+        AgentSet& by = observable_by_[index(canvas_.cell(row, byte, bit))];
+        by = static_cast<AgentSet>(by | agents);
+      });
+    }
+    swaths_[index(swath_count_++)] = swath;
+  }
+  painted_ = {cells.columns(), cells.rows(), -1, -1};
+  return {};
 }
 
 }  // namespace ivo::planner

@@ -1,8 +1,8 @@
-// What is first seen where along each edge, prepared so that a planner's move costs a table look-up and no ray.
+// What is seen from each node and along each edge, kept as swaths of a few sight points (seen_map.hpp): about 0.9 kB an
+// edge of 9 m at 0.25 m cells, one record for both directions. A planner's move costs a few dozen words and no ray.
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstdint>
 #include <span>
 
@@ -10,57 +10,71 @@
 #include "planner/refusal.hpp"
 #include "planner/world/cells.hpp"
 #include "planner/world/graph.hpp"
+#include "planner/world/seen_map.hpp"
 
 namespace ivo::planner {
-
-/// A cell and the sight point (visibility.hpp) at which it is first seen, packed in four bytes.
-class SightEvent {
- public:
-  static constexpr int kCellBits = std::bit_width(static_cast<unsigned>(limits::kCells - 1));
-  static constexpr int kMaxPoint = (1 << (32 - kCellBits)) - 1;
-
-  SightEvent() = default;
-  constexpr SightEvent(Cell cell, int point) noexcept
-      : bits_(static_cast<std::uint32_t>(point) << kCellBits | static_cast<std::uint32_t>(cell)) {}
-  [[nodiscard]] constexpr Cell cell() const noexcept { return static_cast<Cell>(bits_ & ((1U << kCellBits) - 1)); }
-  [[nodiscard]] constexpr int point() const noexcept { return static_cast<int>(bits_ >> kCellBits); }
-
- private:
-  std::uint32_t bits_ = 0;
-};
 
 /// Sensing radius of each agent, R_m.
 using SightRadii = std::array<double, limits::kAgents>;
 
+/// The swaths of one node or edge. Against an edge's first direction they are taken from the last to the first, and
+/// sight point k of n is point n - k of the record.
+struct SightView {
+  std::span<const Swath> swaths;
+  bool reversed = false;
+
+  [[nodiscard]] std::size_t size() const noexcept { return swaths.size(); }
+  /// The i-th swath on the way.
+  [[nodiscard]] const Swath& at(std::size_t i) const noexcept {
+    return swaths[reversed ? swaths.size() - 1 - i : i];
+  }
+};
+
 class SightTable {
  public:
-  /// Agents of one radius share their rows. Only cells with `mass` above 0 are kept. Cost: each edge's sight points
-  /// times the disc.
-  [[nodiscard]] Refusal build(const Cells& cells, const Graph& graph, const SightRadii& radii_m,
-                              std::span<const double> mass) noexcept;
+  /// Most sight points of an edge.
+  static constexpr int kMaxPoint = 1023;
 
-  /// Cells with mass seen from a node; all at point 0.
-  [[nodiscard]] std::span<const SightEvent> from_node(int agent, Node n) const noexcept;
-  /// Cells with mass seen along an edge and not from its tail; a cell once, at the first point that sees it.
-  [[nodiscard]] std::span<const SightEvent> along_edge(int agent, Edge e) const noexcept;
+  /// Agents of one radius share their records. Cost: each edge's sight points times the disc's rows where nothing
+  /// hides, times its cells elsewhere.
+  [[nodiscard]] Refusal build(const Cells& cells, const Graph& graph, const SightRadii& radii_m) noexcept;
+
+  /// What an agent sees from a node: one point.
+  [[nodiscard]] SightView from_node(int agent, Node n) const noexcept {
+    return view(node_records_[index(layer_of_agent_[index(agent)])][index(n)], false);
+  }
+  /// What it sees along an edge, both ends included.
+  [[nodiscard]] SightView along_edge(int agent, Edge e) const noexcept {
+    return view(edge_records_[index(layer_of_agent_[index(agent)])][index(e)], against_[index(e)]);
+  }
+  [[nodiscard]] const std::uint64_t* words(const Swath& swath) const noexcept {
+    return words_.data() + swath.first_word;
+  }
   /// n of visibility.hpp: the edge's last sight point.
-  [[nodiscard]] int points(Edge e) const noexcept { return points_[static_cast<std::size_t>(e)]; }
+  [[nodiscard]] int points(Edge e) const noexcept { return points_[index(e)]; }
+  [[nodiscard]] double radius_m(int agent) const noexcept { return layer_radius_m_[index(layer_of_agent_[index(agent)])]; }
+  /// Agents of one radius have one layer.
+  [[nodiscard]] int layer(int agent) const noexcept { return layer_of_agent_[index(agent)]; }
   /// Agents that can see the cell from a node or an edge that they can get to.
-  [[nodiscard]] AgentSet observable_by(Cell c) const noexcept { return observable_by_[static_cast<std::size_t>(c)]; }
-  [[nodiscard]] int events() const noexcept { return events_; }
+  [[nodiscard]] AgentSet observable_by(Cell c) const noexcept { return observable_by_[index(c)]; }
+  [[nodiscard]] int words_used() const noexcept { return word_count_; }
 
  private:
-  struct Rows {
+  struct Record {
     std::int32_t first = 0;
     std::int32_t count = 0;
   };
-  using EdgeRows = std::array<Rows, limits::kEdges>;
-  using NodeRows = std::array<Rows, limits::kNodes>;
 
-  [[nodiscard]] bool keep(Cell cell, int point) noexcept;
+  [[nodiscard]] SightView view(Record record, bool reversed) const noexcept {
+    return {{swaths_.data() + record.first, static_cast<std::size_t>(record.count)}, reversed};
+  }
+  void assign_layers(const Graph& graph, const SightRadii& radii_m) noexcept;
   [[nodiscard]] Refusal add_nodes(const Cells& cells, const Graph& graph, int layer) noexcept;
   [[nodiscard]] Refusal add_edges(const Cells& cells, const Graph& graph, int layer) noexcept;
-  void look_along(const Cells& cells, Point a, Point b, int points, double radius_m) noexcept;
+  [[nodiscard]] Refusal add_edge(const Cells& cells, Point a, Point b, int points, double radius_m, Record& record,
+                                 AgentSet agents) noexcept;
+  void paint(const Cells& cells, Point from, double radius_m) noexcept;
+  [[nodiscard]] Refusal cut(const Cells& cells, int first_point, int last_point, AgentSet agents) noexcept;
 
   // A layer is one radius and the agents that have it.
   int layers_ = 0;
@@ -68,19 +82,19 @@ class SightTable {
   std::array<AgentSet, limits::kAgents> layer_agents_{};
   std::array<int, limits::kAgents> layer_of_agent_{};
 
-  int events_ = 0;
-  std::array<SightEvent, limits::kSightEvents> pool_{};
-  std::array<EdgeRows, limits::kAgents> edge_rows_{};
-  std::array<NodeRows, limits::kAgents> node_rows_{};
+  int word_count_ = 0;
+  int swath_count_ = 0;
+  std::array<std::uint64_t, limits::kSightWords> words_{};
+  std::array<Swath, limits::kSwaths> swaths_{};
+  std::array<std::array<Record, limits::kEdges>, limits::kAgents> edge_records_{};
+  std::array<std::array<Record, limits::kNodes>, limits::kAgents> node_records_{};
+  std::array<bool, limits::kEdges> against_{};  // the record was made from the head to the tail
   std::array<std::int16_t, limits::kEdges> points_{};
   std::array<AgentSet, limits::kCells> observable_by_{};
-  std::span<const double> mass_;
 
-  // While building one edge: the cells in sight and the first and last point that sees each.
-  std::array<Cell, limits::kCells> seen_{};
-  int seen_count_ = 0;
-  std::array<std::int16_t, limits::kCells> first_point_{};
-  std::array<std::int16_t, limits::kCells> last_point_{};
+  // While building: the cells of the swath under way and the rows and bytes that hold them.
+  SeenMap canvas_;
+  CellWindow painted_;
 };
 
 }  // namespace ivo::planner

@@ -14,11 +14,14 @@ namespace ivo::planner {
 [[nodiscard]] bool line_of_sight(const Cells& cells, Point from, Cell target) noexcept;
 
 /// True when the centre of `target` is within `radius_m` of `from`; the 1e-9 m^2 keep cells on the circle in.
-[[nodiscard]] inline bool within_radius(const Cells& cells, Point from, Cell target, double radius_m) noexcept {
-  const Point c = cells.centre(target);
+[[nodiscard]] inline bool within_radius(const Cells& cells, Point from, int column, int row, double radius_m) noexcept {
+  const Point c = cells.centre(column, row);
   const double dx = c.x_m - from.x_m;
   const double dy = c.y_m - from.y_m;
   return dx * dx + dy * dy <= radius_m * radius_m + 1e-9;
+}
+[[nodiscard]] inline bool within_radius(const Cells& cells, Point from, Cell target, double radius_m) noexcept {
+  return within_radius(cells, from, cells.column(target), cells.row(target), radius_m);
 }
 
 /// Calls `seen(cell)` for each cell that is seen from `from`, row by row. Cost: the disc's cells times the walk.

@@ -77,8 +77,8 @@ class Plan(unittest.TestCase):
         plan = read_json(self.out, "plan.json")
         bounds = plan["bounds"]
         bound = max(bounds["area_s"], bounds["reach_s"])
-        if bound > 0:
-            self.assertAlmostEqual(plan["gap"], plan["score"]["expected_time_continuous_s"] / bound - 1)
+        self.assertGreater(bound, 0)
+        self.assertAlmostEqual(plan["gap"], plan["score"]["expected_time_continuous_s"] / bound - 1)
         self.assertLessEqual(max(bounds["area_strict_s"], bounds["reach_strict_s"]), plan["score"]["expected_time_continuous_s"])
 
     def test_a_time_limit_ends_the_search_and_the_file_says_how_far_it_came(self):

@@ -41,6 +41,7 @@ class Run(unittest.TestCase):
         self.assertTrue(plan["score"]["complete"])
         self.assertLessEqual(plan["score"]["unseen_mass"], 0.014)
         self.assertEqual(report["plan_score"], plan["score"])
+        self.assertEqual((report["plan_bounds"], report["plan_gap"]), (plan["bounds"], plan["gap"]))
         self.assertIn(report["end"], ("found", "paths_ended"))
         robot, person = report["agents"]
         self.assertGreater(robot["distance_m"], 1.0)

@@ -255,7 +255,7 @@ class NaiveAnt {
       mass_steps += world_.belief.mass[c] * terms;
       if (world_.belief.has_sub_priors) {
         sub_mass += world_.belief.sub_mass[credited][c];
-        sub_mass_steps += world_.belief.sub_mass[credited][c] * std::min(terms, world_.belief.sub_prior_steps);
+        sub_mass_steps += world_.belief.sub_mass[credited][c] * std::min<double>(terms, world_.belief.sub_prior_steps);
       }
     }
     planner::PlanScore& score = tour.score;

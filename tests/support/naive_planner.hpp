@@ -27,6 +27,7 @@ class NaivePlanner {
       : world_{prepared.graph(), prepared.cells(), prepared.belief(), problem},
         colony_(problem.colony),
         rng_(problem.colony.seed),
+        deposit_rng_(~problem.colony.seed),
         tau_(problem.agents.size(), std::vector<double>(planner::index(world_.graph.edges()), 1.0)) {}
 
   /// All generations. Cost: each ant's sight points times the cells of the map.
@@ -64,7 +65,7 @@ class NaivePlanner {
 
   void update_trails(int generation, const NaiveTour& best_of_generation) {
     const double tau_max = 1.0 / (colony_.rho * std::max(cost(best_->score), 1.0));
-    const NaiveTour& depositor = rng_.unit() < colony_.iteration_best ? best_of_generation : *best_;
+    const NaiveTour& depositor = deposit_rng_.unit() < colony_.iteration_best ? best_of_generation : *best_;
     const double amount = 1.0 / std::max(cost(depositor.score), 1.0);
     for (std::size_t m = 0; m < tau_.size(); ++m) {
       const int nodes = world_.graph.nodes_reached_by(static_cast<int>(m));
@@ -106,6 +107,7 @@ class NaivePlanner {
   const NaiveWorld world_;
   const planner::ColonyParameters colony_;
   planner::Rng rng_;
+  planner::Rng deposit_rng_;  // who deposits is drawn apart
   NaiveTrails tau_;
   std::optional<NaiveTour> best_;
 };

@@ -11,3 +11,9 @@ elseif(IVO_PLANNER_PROFILE STREQUAL "desktop")
 else()
   message(FATAL_ERROR "IVO_PLANNER_PROFILE is \"${IVO_PLANNER_PROFILE}\"; expected micro, onboard or desktop")
 endif()
+
+# With fixed-point arithmetic a search is the same, bit for bit, on every CPU.
+option(IVO_PLANNER_FIXED "Search in fixed point" OFF)
+if(IVO_PLANNER_FIXED)
+  target_compile_definitions(ivo_flags INTERFACE IVO_PLANNER_FIXED=1)
+endif()

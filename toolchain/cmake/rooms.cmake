@@ -20,11 +20,14 @@ target_compile_options(
             # The same sums on every CPU: no fused multiply-add behind the formula's back.
             -ffp-contract=off)
 
-# ivo_room(FOLDER [LINKS target...]): the library of FOLDER's sources. firmware/motion becomes ivo_firmware_motion.
+# ivo_room(FOLDER [EXCEPT file...] [LINKS target...]): the library of FOLDER's sources. firmware/motion becomes
+# ivo_firmware_motion.
 function(ivo_room folder)
-  cmake_parse_arguments(ROOM "" "" "LINKS" ${ARGN})
+  cmake_parse_arguments(ROOM "" "" "EXCEPT;LINKS" ${ARGN})
   string(REPLACE "/" "_" name ivo_${folder})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.cpp)
+  list(TRANSFORM ROOM_EXCEPT PREPEND ${PROJECT_SOURCE_DIR}/)
+  list(REMOVE_ITEM sources ${ROOM_EXCEPT})
   if(sources)
     add_library(${name} STATIC ${sources})
     target_link_libraries(${name} PUBLIC ivo_flags ${ROOM_LINKS})

@@ -40,9 +40,10 @@ class Sheet {
 
   void add(const std::string& case_name, const std::string& figure, double value, const std::string& unit,
            std::optional<Target> target = std::nullopt);
-  /// Median and worst: "FIGURE", "FIGURE, worst". A target is for the median. At least one value.
+  /// Median and worst: "FIGURE", "FIGURE, worst". A target is for the median, and says which values are bad; without
+  /// one large ones are, unless `good` says otherwise. At least one value.
   void add_median(const std::string& case_name, const std::string& figure, std::vector<double> values,
-                  const std::string& unit, std::optional<Target> target = std::nullopt);
+                  const std::string& unit, std::optional<Target> target = std::nullopt, Sense good = Sense::kAtMost);
   /// Mean and worst, as add_median.
   void add_mean(const std::string& case_name, const std::string& figure, const std::vector<double>& values,
                 const std::string& unit, std::optional<Target> target = std::nullopt);

@@ -110,7 +110,8 @@ Comparison run(planner::Planner& planner, const Case& c, const Options& options,
   const double coverage_begin_s = thread_seconds();
   const rivals::Coverage coverage(planner, problem);
   comparison.coverage_s = thread_seconds() - coverage_begin_s;
-  const auto scorer = std::make_unique<planner::PathScorer>();
+  const auto sightings = std::make_unique<planner::FirstSightings>();
+  const auto scorer = std::make_unique<planner::PathScorer>(*sightings);
   const rivals::RivalProblem rival_problem{planner, problem, coverage, *scorer};
   comparison.at.assign(times_s.size(), {Column(kOurs)});
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {

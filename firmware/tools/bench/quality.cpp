@@ -71,6 +71,7 @@ void add_time(const std::string& name, const std::vector<Run>& runs, std::size_t
     }
   }
   std::vector<double> prepare_s;
+  prepare_s.reserve(runs.size());
   for (const Run& run : runs) {
     prepare_s.push_back(run.prepared.value());
   }

@@ -1,6 +1,7 @@
 #include "firmware/tools/bench/scenes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <utility>
@@ -89,17 +90,19 @@ Result<Scene> paper_scene(PaperMap map, PaperPrior prior, double spacing_m) {
   scene.gaussians = {{{12.0, 12.0}, 4.0, 1.0}, {{30.0, 28.0}, 4.0, 1.0}};
   planner::SearchProblem& problem = scene.problem;
   const std::span<const planner::GaussianComponent> both = scene.gaussians;
-  const auto give = [&](planner::PriorChoice first, planner::PriorChoice second) {
-    (void)problem.sub_priors.push_back(first);
-    (void)problem.sub_priors.push_back(second);
-  };
+  const std::array<Point, 2> starts = {problem.agents[0].body.start, problem.agents[1].body.start};
+  for (const planner::GaussianComponent& component : both) {
+    const std::int8_t nearest = planner::nearest_agent(component, starts);
+    const bool exchanged = prior == PaperPrior::kGaussiansExchanged;
+    scene.agent_of_gaussian.push_back(exchanged ? static_cast<std::int8_t>(1 - nearest) : nearest);
+  }
   switch (prior) {
     case PaperPrior::kUniform:
       scene.name += "/U";
       break;
     case PaperPrior::kUniformSubPriors:
       scene.name += "/U/S";
-      give(std::monostate{}, std::monostate{});
+      problem.sub_priors = planner::AlikeSubPriors{};
       break;
     case PaperPrior::kGaussians:
       scene.name += "/G";
@@ -108,12 +111,12 @@ Result<Scene> paper_scene(PaperMap map, PaperPrior prior, double spacing_m) {
     case PaperPrior::kGaussiansSubPriors:
       scene.name += "/G/S";
       problem.prior = both;
-      give(both.subspan(0, 1), both.subspan(1, 1));
+      problem.sub_priors = planner::DealtComponents{scene.agent_of_gaussian};
       break;
     case PaperPrior::kGaussiansExchanged:
       scene.name += "/G/S exchanged";
       problem.prior = both;
-      give(both.subspan(1, 1), both.subspan(0, 1));
+      problem.sub_priors = planner::DealtComponents{scene.agent_of_gaussian};
       break;
   }
   return scene;

@@ -24,6 +24,7 @@ struct Scene {
   std::string name;
   std::vector<SemanticClass> pixels;
   std::vector<planner::GaussianComponent> gaussians;
+  std::vector<std::int8_t> agent_of_gaussian;
   std::vector<std::uint16_t> grey;
   planner::SearchProblem problem;
 };

@@ -74,6 +74,7 @@ double mean(const std::vector<double>& values) {
 
 std::vector<double> all(const std::vector<Result<Found>>& trials, double (*of)(const Found&)) {
   std::vector<double> values;
+  values.reserve(trials.size());
   for (const Result<Found>& trial : trials) {
     values.push_back(of(trial.value()));
   }

@@ -10,7 +10,9 @@ namespace ivo::firmware::bench {
 Walkable::Walkable(const planner::SegmentedMap& map, double clearance_m) {
   const planner::ClassSet obstacles = planner::obstacle_classes(map.classes);
   const auto centre = [&](int pixel) {
-    return Point{(pixel % map.width_px + 0.5) * map.resolution_m, (pixel / map.width_px + 0.5) * map.resolution_m};
+    const int row = pixel / map.width_px;
+    const int column = pixel % map.width_px;
+    return Point{(column + 0.5) * map.resolution_m, (row + 0.5) * map.resolution_m};
   };
   const int pixels = map.width_px * map.height_px;
   std::vector<bool> open(static_cast<std::size_t>(pixels));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <memory>
 
 namespace ivo::firmware::rivals {
 
@@ -9,13 +10,15 @@ Coverage::Coverage(const planner::Planner& prepared, const planner::SearchProble
     : belief_(prepared.belief()), words_((planner::index(prepared.cells().count()) + 63) / 64) {
   constexpr double kPieceM = 1.0;
   const std::span<const planner::Cell> cells = belief_.cells_with_mass();
-  const double first = belief_.mass[planner::index(cells.front())];
+  const double first = planner::to_double(belief_.mass[planner::index(cells.front())]);
   const bool uniform = std::all_of(cells.begin(), cells.end(),
-                                   [&](planner::Cell c) { return belief_.mass[planner::index(c)] == first; });
+                                   [&](planner::Cell c) { return planner::to_double(belief_.mass[planner::index(c)]) == first; });
   uniform_mass_ = uniform ? first : 0.0;
 
   const planner::Graph& graph = prepared.graph();
   const planner::SightTable& sight = prepared.sight();
+  const auto events = std::make_unique<planner::EdgeEvents>(prepared.cells(), graph, sight);
+  events->clear();
   for (std::size_t m = 0; m < search.agents.size(); ++m) {
     const double radius_m = search.agents[m].sight_radius_m;
     const auto known =
@@ -27,14 +30,26 @@ Coverage::Coverage(const planner::Planner& prepared, const planner::SearchProble
     const auto agent = static_cast<int>(m);
     Layer layer{radius_m, {}, {}};
     const auto here = [&] { return static_cast<std::uint32_t>(rows_.size()); };
-    for (planner::Edge e = 0; e < graph.edges(); ++e) {
-      layer.edges.push_back(here());
-      add_rows(sight.along_edge(agent, e), sight.points(e), 2.0 * kPieceM / prepared.cells().cell_m());
+    for (planner::Node n = 0; n < graph.nodes(); ++n) {
+      for (planner::Edge e = graph.first_edge(n); e < graph.end_edge(n); ++e) {
+        layer.edges.push_back(here());
+        while (events->prepare(agent, n, e, 1 << 20) > 0) {
+        }
+        add_rows(events->along(agent, e), sight.points(e), 2.0 * kPieceM / prepared.cells().cell_m());
+      }
     }
     layer.edges.push_back(here());
     for (planner::Node n = 0; n < graph.nodes(); ++n) {
       layer.nodes.push_back(here());
-      add_rows(sight.from_node(agent, n), 1, 1.0);
+      around_.clear();
+      for (const planner::Swath& swath : sight.from_node(agent, n).swaths) {
+        for (int i = 0; i < swath.rows; ++i) {
+          const planner::Cell leftmost = prepared.cells().at(8 * swath.first_byte, swath.first_row + i);
+          planner::for_each_bit(sight.words(swath)[i],
+                                [&](int bit) { around_.push_back(planner::SightEvent(leftmost + bit, 0)); });
+        }
+      }
+      add_rows(around_, 1, 1.0);
     }
     layer.nodes.push_back(here());
     layers_.push_back(std::move(layer));
@@ -46,6 +61,9 @@ void Coverage::add_rows(std::span<const planner::SightEvent> events, int points,
   // Piece, then word, then bit: a cell is below 2^22.
   keys_.clear();
   for (const planner::SightEvent event : events) {
+    if (belief_.mass[planner::index(event.cell())] <= planner::Mass{}) {
+      continue;
+    }
     const auto piece = static_cast<std::uint64_t>(std::max(0, event.point() - 1)) * static_cast<std::uint64_t>(pieces) /
                        static_cast<std::uint64_t>(points);
     keys_.push_back(piece << 32U | static_cast<std::uint64_t>(event.cell()));
@@ -67,8 +85,8 @@ double Coverage::mass(std::uint32_t word, std::uint64_t bits) const {
     return uniform_mass_ * std::popcount(bits);
   }
   double sum = 0.0;
-  for (const double* const mass = belief_.mass.data() + std::size_t{word} * 64; bits != 0; bits &= bits - 1) {
-    sum += mass[std::countr_zero(bits)];
+  for (const planner::Mass* const mass = belief_.mass.data() + std::size_t{word} * 64; bits != 0; bits &= bits - 1) {
+    sum += planner::to_double(mass[std::countr_zero(bits)]);
   }
   return sum;
 }

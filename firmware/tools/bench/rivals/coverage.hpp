@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "planner/search/edge_events.hpp"
 #include "planner/search/planner.hpp"
 
 namespace ivo::firmware::rivals {
@@ -56,6 +57,7 @@ class Coverage {
   std::vector<Layer> layers_;
   std::vector<CoverageRow> rows_;
   std::vector<std::uint64_t> keys_;  // while building
+  std::vector<planner::SightEvent> around_;
 };
 
 }  // namespace ivo::firmware::rivals

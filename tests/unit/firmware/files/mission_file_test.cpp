@@ -109,6 +109,41 @@ TEST(MissionFile, ReadsEveryKindOfObjectAndPrior) {
   EXPECT_EQ(std::get<ImagePrior>(image.value().mission.prior).resolution_m, 0.25);
 }
 
+TEST(MissionFile, ReadsSubPriorsOfEveryKind) {
+  EXPECT_FALSE(mission_of(kMission).value().mission.alike_sub_priors);
+  const auto alike =
+      mission_of(replaced(kMission, "[planner]", "prior = { uniform = true, sub_priors = 'alike' }\n[planner]"));
+  ASSERT_TRUE(alike.ok()) << alike.error().message;
+  EXPECT_TRUE(alike.value().mission.alike_sub_priors);
+  EXPECT_TRUE(std::holds_alternative<UniformPrior>(alike.value().mission.prior));
+  const auto dealt = mission_of(replaced(
+      kMission, "[planner]", "prior = { gaussians = [ { mean_m = [1, 2], sigma_m = 3, agent = 'Ana' } ] }\n[planner]"));
+  ASSERT_TRUE(dealt.ok()) << dealt.error().message;
+  EXPECT_EQ(std::get<GaussianMixturePrior>(dealt.value().mission.prior).components.at(0).agent, "Ana");
+  const auto image =
+      mission_of(replaced(kMission, "heading_deg = 180", "sub_prior = { image = '/data/x.png', resolution_m = 0.25 }"));
+  ASSERT_TRUE(image.ok()) << image.error().message;
+  ASSERT_TRUE(image.value().mission.agents[0].sub_prior.has_value());
+  EXPECT_EQ(image.value().mission.agents[0].sub_prior->image_path, "/data/x.png");
+  EXPECT_EQ(image.value().mission.agents[0].sub_prior->resolution_m, 0.25);
+  EXPECT_FALSE(image.value().mission.agents[1].sub_prior.has_value());
+}
+
+TEST(MissionFile, RefusesSubPriorsThatAreNone) {
+  EXPECT_EQ(complaint_about_prior("{ uniform = true, sub_priors = 'equal' }"),
+            "m.toml:3: prior.sub_priors: \"equal\" is unknown; expected \"alike\"");
+  EXPECT_EQ(complaint_about_prior("{ uniform = false }"),
+            "m.toml:3: prior.uniform: is no prior; expected true, or gaussians or image in its place");
+  EXPECT_EQ(complaint_about_prior("{ uniform = true, image = 'x.png' }"),
+            "m.toml:3: prior.image: a second prior beside uniform; expected one of the two");
+  EXPECT_EQ(complaint_about_prior("{ uniform = true, gaussians = [ { mean_m = [1, 1], sigma_m = 1 } ] }"),
+            "m.toml:3: prior.uniform: a second prior beside gaussians; expected one of the two");
+  EXPECT_EQ(complaint("heading_deg = 180", "sub_prior = { image = 'x.png' }"),
+            "m.toml:10: agent[0].sub_prior.resolution_m: missing; it must be given, in metres");
+  EXPECT_EQ(complaint("heading_deg = 180", "sub_prior = 'x.png'"),
+            "m.toml:10: agent[0].sub_prior: is no sub-prior; expected { image = \"...\", resolution_m = ... }");
+}
+
 TEST(MissionFile, ReadsEveryPlannerParameter) {
   const auto file = mission_of(replaced(kMission, "cell_m = 0.5",
                                         "profile = 'paper'\nheuristic = 'mts'\ncell_m = 0.1\nspacing_m = "
@@ -230,7 +265,7 @@ TEST(MissionFile, RefusesPriorsThatAreNone) {
   EXPECT_EQ(complaint_about_prior("'flat'"), none);
   EXPECT_EQ(complaint_about_prior("7"), none);
   EXPECT_EQ(complaint_about_prior("{}"),
-            "m.toml:3: prior: holds no prior; expected gaussians, or image and resolution_m");
+            "m.toml:3: prior: holds no prior; expected uniform, gaussians, or image and resolution_m");
   EXPECT_EQ(complaint_about_prior("{ image = 'x.png' }"),
             "m.toml:3: prior.resolution_m: missing; it must be given, in metres");
   EXPECT_EQ(complaint_about_prior("{ gaussians = [] }"),

@@ -18,7 +18,8 @@ constexpr double kMaxUnseen = 0.3;
 using Polylines = std::vector<std::vector<Point>>;
 
 PathScorer& scorer() {
-  static PathScorer scorer;
+  static FirstSightings sightings;  // large
+  static PathScorer scorer(sightings);
   return scorer;
 }
 

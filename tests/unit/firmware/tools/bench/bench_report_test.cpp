@@ -21,13 +21,15 @@ TEST(BenchSheet, PutsTheWorstBesideMedianAndMean) {
   sheet.add_median("a", "t", {4, 1, 3, 2}, "s");
   sheet.add_mean("a", "u", {1, 2, 6}, "s");
   sheet.add_median("a", "v", {1, 2, 6}, "", Target{2, Sense::kAtLeast});
+  sheet.add_median("a", "w", {1, 2, 6}, "", std::nullopt, Sense::kAtLeast);
   const auto& r = sheet.records();
-  ASSERT_EQ(r.size(), 6U);
+  ASSERT_EQ(r.size(), 8U);
   EXPECT_EQ(*r[0].value, 2.5);
   EXPECT_EQ(r[1].figure, "t, worst");
   EXPECT_EQ(*r[1].value, 4);
   EXPECT_EQ(*r[2].value, 3);
   EXPECT_EQ(*r[3].value, 6);
+  EXPECT_EQ(*r[7].value, 1);
   EXPECT_EQ(*r[5].value, 1) << "where more is better the least is the worst";
 }
 

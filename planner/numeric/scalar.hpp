@@ -1,0 +1,62 @@
+// What the search computes with: doubles, or fixed point when the planner is built with IVO_PLANNER_FIXED (CMake option).
+// Tables - graph, sight, prior - are made with doubles in both; from the first ant on a fixed-point build uses whole
+// numbers alone.
+//
+// | type    | holds                         | fixed format | range        | resolution     |
+// | ------- | ----------------------------- | ------------ | ------------ | -------------- |
+// | Seconds | times, durations              | Q47.16       | to 2^47 s    | 15 us          |
+// | Pace    | seconds a sight point         | Q31.32       | to 2^31      | 2.3e-10        |
+// | Mass    | probability, and mass x steps | Q32.31       | to 2^32      | 4.7e-10        |
+// | MassTime| mass x seconds                | Q16.47       | to 65,536 s  | 7e-15          |
+// | Trail   | tau rho                       | Q33.30       | to 2^33      | 9.3e-10        |
+// | Weight  | tau rho eta^beta              | Q25.38       | to 2^25      | 3.6e-12        |
+#pragma once
+
+#include <cstdint>
+
+#include "planner/numeric/fixed.hpp"
+
+#ifndef IVO_PLANNER_FIXED
+#define IVO_PLANNER_FIXED 0
+#endif
+
+namespace ivo::planner {
+
+inline constexpr bool kFixedPoint = IVO_PLANNER_FIXED != 0;
+
+#if IVO_PLANNER_FIXED
+using Seconds = Fixed<16>;
+using Pace = Fixed<32>;
+using Mass = Fixed<31>;
+using MassTime = Fixed<47>;
+#else
+using Seconds = double;
+using Pace = double;
+using Mass = double;
+using MassTime = double;
+#endif
+
+/// When the point-th sight point is passed.
+[[nodiscard]] constexpr Seconds after_points(Pace pace, int points) noexcept {
+#if IVO_PLANNER_FIXED
+  return round_to<Seconds>(pace * points);
+#else
+  return pace * points;
+#endif
+}
+
+/// Sums of a prior's masses are exact in both builds, whatever the order: a cell holds a multiple of this.
+inline constexpr double kMassUnit = kFixedPoint ? 0x1p-31 : 0x1p-50;
+
+[[nodiscard]] constexpr double to_double(double value) noexcept { return value; }
+template <int F>
+[[nodiscard]] constexpr double to_double(Fixed<F> value) noexcept {
+  return static_cast<double>(value);
+}
+
+/// A mass of a cell, to the nearest unit.
+[[nodiscard]] constexpr Mass mass_from(double value) noexcept {
+  return Mass(static_cast<double>(static_cast<std::int64_t>(value / kMassUnit + 0.5)) * kMassUnit);
+}
+
+}  // namespace ivo::planner

@@ -1,0 +1,204 @@
+#include "planner/search/colony.hpp"
+
+#include <algorithm>
+
+namespace ivo::planner {
+namespace {
+
+int edges_of(const Tour& tour) noexcept {
+  int edges = 1;
+  for (const EdgePath& path : tour.paths) {
+    edges += static_cast<int>(path.size());
+  }
+  return edges;
+}
+
+// A plan that needs no time would draw every ant for ever.
+Mass cost_of(const Tour& tour) noexcept { return std::max(tour.cost.high, Mass(1)); }
+
+}  // namespace
+
+void Colony::start(const ColonyParameters& parameters) noexcept {
+  parameters_ = parameters;
+  trails_.start(world_.graph, parameters.rho, parameters.heuristic == Heuristic::kTsp ? parameters.beta : 0);
+  ant_.open();
+  scorer_.open();
+  rng_ = Rng(parameters.seed);
+  deposit_rng_ = Rng(~parameters.seed);
+  generation_ = 0;
+  ants_done_ = 0;
+  ants_over_ = false;
+  has_best_ = false;
+  begin_generation();
+}
+
+void Colony::begin_generation() noexcept {
+  deposits_iteration_best_ = deposit_rng_.unit() < parameters_.iteration_best;
+  phase_ = Phase::kAnt;
+  ant_.start(parameters_.ant, parameters_.heuristic, parameters_.beta);
+}
+
+int Colony::advance() noexcept {
+  switch (phase_) {
+    case Phase::kAnt:
+      return ant_.done() ? end_ant() : ant_.advance(rng_, kRowsAPart);
+    case Phase::kScoreBest:
+    case Phase::kScoreAnt:
+      return scorer_.done() ? (ants_over_ ? take_generation_best() : compare()) : scorer_.advance(kRowsAPart);
+    case Phase::kRaise:
+    case Phase::kEvaporate:
+    case Phase::kClamp:
+      return sweep_trails();
+    case Phase::kDone:
+      break;
+  }
+  return 0;
+}
+
+bool Colony::better(const Tour& a, const Tour& b) const noexcept {
+  if (a.complete != b.complete) {
+    return a.complete;
+  }
+  return a.complete ? a.cost.high < b.cost.low : a.unseen < b.unseen;
+}
+
+void Colony::score(Tour& tour, Phase phase) noexcept {
+  scorer_.start(tour, parameters_.ant.max_unseen_mass);
+  phase_ = phase;
+}
+
+int Colony::end_ant() noexcept {
+  if (ants_done_ == 0) {
+    ant_.finish(generation_best_);
+    if (world_.belief.has_sub_priors) {
+      generation_best_.cost = {Mass{}, Mass(1 << 20)};  // Eq. 8 says nothing of EST
+    }
+    return next_ant(edges_of(generation_best_));
+  }
+  ant_.finish(candidate_);
+  if (world_.belief.has_sub_priors) {
+    candidate_.cost = {Mass{}, Mass(1 << 20)};
+  }
+  return compare() + edges_of(candidate_);
+}
+
+// Of the ant that is done and the best before it in this generation; the earlier one where both are equal.
+int Colony::compare() noexcept {
+  Tour& best = generation_best_;
+  Tour& ant = candidate_;
+  if (better(ant, best)) {
+    best.assign(ant);
+    return next_ant(edges_of(ant));
+  }
+  // Where the best so far deposits, an ant matters only when it may be better than that.
+  const bool beaten = !deposits_iteration_best_ && has_best_ && best_.complete;
+  const bool surely_not = ant.complete != best.complete || !ant.complete || ant.cost.low >= best.cost.high ||
+                          (beaten && ant.cost.low >= best_.cost.high);
+  if (surely_not) {
+    return next_ant(1);
+  }
+  if (!best.scored) {
+    score(best, Phase::kScoreBest);
+  } else {
+    score(ant, Phase::kScoreAnt);
+  }
+  return 1;
+}
+
+int Colony::next_ant(int work) noexcept {
+  ++ants_done_;
+  if (ants_done_ < parameters_.ants) {
+    phase_ = Phase::kAnt;
+    ant_.start(parameters_.ant, parameters_.heuristic, parameters_.beta);
+    return work;
+  }
+  return work + end_generation();
+}
+
+int Colony::end_generation() noexcept {
+  ants_done_ = 0;
+  ants_over_ = true;
+  ++generation_;
+  const Tour& tour = generation_best_;
+  const bool may_be_best = !has_best_ || tour.complete != best_.complete || !tour.complete || tour.cost.low < best_.cost.low;
+  if (!tour.scored && (may_be_best || deposits_iteration_best_)) {
+    score(generation_best_, Phase::kScoreBest);
+    return 1;
+  }
+  return take_generation_best();
+}
+
+int Colony::take_generation_best() noexcept {
+  ants_over_ = false;
+  if (!has_best_ || (generation_best_.scored && better(generation_best_, best_))) {
+    set_best(generation_best_);
+  }
+  if (generation_ >= parameters_.generations || best_.cost.high <= Mass{}) {
+    phase_ = Phase::kDone;  // nothing is cheaper than a plan that sees everything from the starts
+    return 1;
+  }
+  sweep_agent_ = 0;
+  sweep_edge_ = 0;
+  phase_ = generation_ == 1 ? Phase::kRaise : Phase::kEvaporate;
+  return 1;
+}
+
+void Colony::set_best(const Tour& tour) noexcept {
+  best_.assign(tour);
+  has_best_ = true;
+  trails_.set_limits(cost_of(best_));
+}
+
+void Colony::offer(const Tour& tour) noexcept {
+  if (!has_best_ || better(tour, best_)) {
+    set_best(tour);
+  }
+}
+
+// To tau_max after generation 1; then evaporation, deposit, clamp: over all trails, some rows at a time.
+int Colony::sweep_trails() noexcept {
+  const Graph& graph = world_.graph;
+  const Edge count = std::min<Edge>(kRowsAPart, graph.edges() - sweep_edge_);
+  if (phase_ == Phase::kRaise) {
+    trails_.raise_to_max(sweep_agent_, sweep_edge_, count);
+  } else if (phase_ == Phase::kEvaporate) {
+    trails_.evaporate(sweep_agent_, sweep_edge_, count);
+  } else {
+    trails_.clamp(sweep_agent_, sweep_edge_, count);
+  }
+  sweep_edge_ += count;
+  if (sweep_edge_ < graph.edges()) {
+    return count + 1;
+  }
+  sweep_edge_ = 0;
+  ++sweep_agent_;
+  if (sweep_agent_ < graph.agents()) {
+    return count + 1;
+  }
+  sweep_agent_ = 0;
+  if (phase_ == Phase::kRaise) {
+    phase_ = Phase::kEvaporate;
+    return count + 1;
+  }
+  if (phase_ == Phase::kEvaporate) {
+    phase_ = Phase::kClamp;
+    return count + 1 + deposit();
+  }
+  begin_generation();
+  return count + 1;
+}
+
+int Colony::deposit() noexcept {
+  const Tour& depositor = deposits_iteration_best_ ? generation_best_ : best_;
+  const Trail amount = trails_.amount_for(cost_of(depositor));
+  int work = 0;
+  for (int m = 0; m < world_.graph.agents(); ++m) {
+    for (const Edge e : depositor.paths[index(m)]) {
+      trails_.deposit(m, e, amount);
+      ++work;
+    }
+  }
+  return work;
+}
+
+}  // namespace ivo::planner

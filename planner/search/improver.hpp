@@ -1,0 +1,144 @@
+// Iterated improvement of a plan, off the graph too: waypoints are moved, added and dropped, stretches reversed (2-opt),
+// moved (or-opt), given to another agent or exchanged at their ends, and a worse plan is sometimes kept for a while
+// (simulated annealing, Kirkpatrick et al. 1983), in rounds that double in length: there is no time by which it must be
+// asked. The best plan by its exact score is always ready and only gets better.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "planner/numeric/rng.hpp"
+#include "planner/search/lanes.hpp"
+#include "planner/search/path_score.hpp"
+#include "planner/search/route.hpp"
+#include "planner/search/route_judge.hpp"
+#include "planner/search/tour.hpp"
+#include "planner/search/world.hpp"
+
+namespace ivo::planner {
+
+struct ImproverParameters {
+  double max_unseen_mass = 0.014;
+  std::uint64_t seed = 1;
+  int proposals_a_generation = 500;
+};
+
+/// Waypoints as the improver keeps them: exact places of nodes, lattice places elsewhere.
+using Waypoints = StaticVector<Place, limits::kWaypoints>;
+
+class Improver {
+ public:
+  Improver(const World& world, FirstSightings& sightings) noexcept
+      : world_(world), judge_(pool_), scorer_(sightings) {}
+
+  /// Another mission: tables. False when there is nothing it could do (segment_pool.hpp).
+  [[nodiscard]] bool open(const SegmentedMap& map, const Bodies& bodies, double clearance_m,
+                          const std::array<double, limits::kAgents>& speeds_mps,
+                          const ImproverParameters& parameters) noexcept;
+
+  /// Begins with a tour. Cost: its edges' segments.
+  void start(const Tour& tour) noexcept;
+
+  /// A part of the work, about `rows` rows. Returns the work done.
+  int advance(int rows) noexcept;
+  [[nodiscard]] int generation() const noexcept { return proposals_ / parameters_.proposals_a_generation; }
+
+  [[nodiscard]] bool has_best() const noexcept { return has_best_; }
+  /// Exact score of the best plan so far, and its waypoints.
+  [[nodiscard]] const PlanScore& best_score() const noexcept { return best_score_; }
+  [[nodiscard]] const Waypoints& best_waypoints(int agent) const noexcept { return best_[index(agent)]; }
+  [[nodiscard]] double best_end_s(int agent) const noexcept { return best_end_s_[index(agent)]; }
+  [[nodiscard]] Point point_at(const Place& place) const noexcept { return pool_.point_at(place); }
+
+  /// What the next part works on; slices are compared within a kind.
+  enum class Phase : std::uint8_t { kRestore, kJudgeFirst, kPropose, kJudge, kScore };
+  [[nodiscard]] Phase phase() const noexcept { return phase_; }
+
+ private:
+  void draft_lanes() noexcept;
+  void recall() noexcept;
+  void make_current() noexcept;
+  int take_draft() noexcept;
+  int restore_leg() noexcept;
+  int propose() noexcept;
+  bool shift(int agent) noexcept;
+  bool add(int agent) noexcept;
+  bool drop(int agent) noexcept;
+  bool reverse(int agent) noexcept;
+  bool relocate(int agent) noexcept;
+  bool exchange(int agent) noexcept;
+  int settle() noexcept;
+  void accept() noexcept;
+  void reject() noexcept;
+  void remember() noexcept;
+  void after_proposal() noexcept;
+  int begin_round() noexcept;
+  void set_temperature() noexcept;
+  void start_score() noexcept;
+  int take_score() noexcept;
+
+  [[nodiscard]] Place place(const Legs& legs, int agent, int i) const noexcept;
+  [[nodiscard]] Seconds time_at(int agent, int leg) const noexcept;
+  [[nodiscard]] int reach(int agent) const noexcept;
+  [[nodiscard]] Place near(const Place& centre, int spread) noexcept;
+  [[nodiscard]] int pick_spread() noexcept;
+  [[nodiscard]] bool put(int agent, Legs& legs, int i, const Place& from, const Place& to) noexcept;
+  void lose(const Leg& leg) noexcept { (void)lost_.push_back(leg.segment); }
+  void take_out(const Leg& leg) noexcept;
+  void changed(Seconds at) noexcept { changed_s_ = std::min(changed_s_, at); }
+
+  const World& world_;
+  SegmentPool pool_;
+  RouteJudge judge_;
+  PathScorer scorer_;
+  ImproverParameters parameters_;
+  Rng rng_;
+  Phase phase_ = Phase::kPropose;
+  int agents_ = 0;
+  std::array<double, limits::kAgents> speeds_mps_{};
+  std::int32_t sight_ticks_ = 1;
+  std::int32_t border_ticks_ = 0;  // least distance of a waypoint from the border
+  std::int32_t right_ticks_ = 0;
+  std::int32_t top_ticks_ = 0;
+
+  Route current_;
+  Route candidate_;
+  Judgement judged_;  // of current_
+  Legs spare_;
+  StaticVector<std::int32_t, 64> made_;  // segments of the candidate alone
+  StaticVector<std::int32_t, 64> lost_;  // segments of the current route alone
+  Seconds changed_s_{};
+  int work_ = 0;
+
+  int proposals_ = 0;
+  int round_ = 0;
+  int round_length_ = 0;
+  int round_done_ = 0;
+  MassTime temperature_{};
+  MassTime hottest_{};
+  std::array<std::int32_t, 256> patience_{};  // quantiles of the exponential distribution, 8 bits behind the point
+  std::array<std::int32_t, 65> cooling_{};    // 16 bits behind the point
+
+  LaneTeam lane_team_;
+  Lanes lanes_;
+  int drafts_ = 0;  // judged
+  bool draft_broken_ = false;
+  std::array<Waypoints, limits::kAgents> draft_{};
+  int restored_agent_ = 0;
+  std::size_t restored_ = 0;
+  MassTime remembered_cost_{};
+  bool remembered_complete_ = false;
+  bool remembered_ = false;  // and not yet scored
+  std::array<Waypoints, limits::kAgents> memory_{};
+  std::array<StaticVector<Point, limits::kWaypoints>, limits::kAgents> points_{};  // of the memory, while it is scored
+  std::int64_t units_ = 0;
+  std::int64_t scored_at_ = 0;
+
+  bool has_best_ = false;
+  PlanScore best_score_;
+  std::array<Waypoints, limits::kAgents> best_{};
+  std::array<double, limits::kAgents> best_end_s_{};
+};
+
+}  // namespace ivo::planner

@@ -1,0 +1,31 @@
+// A plan while it is improved: for each agent the segments it follows, one after the other.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "config/base/static_vector.hpp"
+#include "planner/search/segment_pool.hpp"
+
+namespace ivo::planner {
+
+/// A segment of the pool and the direction in which it is gone.
+struct Leg {
+  std::int32_t segment = -1;
+  bool back = false;
+  [[nodiscard]] Leg turned() const noexcept { return {segment, !back}; }
+};
+
+using Legs = StaticVector<Leg, limits::kWaypoints>;
+
+struct Route {
+  std::array<Legs, limits::kAgents> legs;
+
+  void assign(const Route& other, int agents) noexcept {
+    for (int m = 0; m < agents; ++m) {
+      legs[index(m)].assign(other.legs[index(m)]);
+    }
+  }
+};
+
+}  // namespace ivo::planner

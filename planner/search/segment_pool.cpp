@@ -1,0 +1,248 @@
+#include "planner/search/segment_pool.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/world/visibility.hpp"
+
+namespace ivo::planner {
+namespace {
+
+constexpr int kQ = 256;  // parts of a tick
+
+}  // namespace
+
+bool SegmentPool::open(const SegmentedMap& map, const Cells& cells, const Graph& graph, const Bodies& bodies,
+                       double clearance_m) noexcept {
+  map_ = map;
+  cells_ = &cells;
+  graph_ = &graph;
+  bodies_ = bodies;
+  clearance_m_ = clearance_m;
+  cell_q_ = static_cast<std::int64_t>(cells.cell_m() * kTicksAMetre * kQ + 0.5);
+  inverse_q_ = (std::int64_t{1} << 40) / cell_q_;
+  int discs = 0;
+  double widest_m = 0.0;
+  for (std::size_t m = 0; m < bodies.size(); ++m) {
+    const auto radius = static_cast<std::int32_t>(bodies[m].sight_radius_m * kTicksAMetre + 0.5);
+    int disc = 0;
+    while (disc < discs && discs_[index(disc)].radius != radius) {
+      ++disc;
+    }
+    disc_of_agent_[m] = disc;
+    widest_m = std::max(widest_m, bodies[m].sight_radius_m);
+    if (disc < discs) {
+      continue;
+    }
+    ++discs;
+    Disc& made = discs_[index(disc)];
+    made.radius = radius;
+    if (radius >= static_cast<std::int32_t>(made.half.size())) {
+      return false;
+    }
+    for (std::int64_t d = 0; d <= radius; ++d) {
+      made.half[static_cast<std::size_t>(d)] = static_cast<std::int16_t>(
+          whole_square_root(static_cast<std::uint64_t>(std::int64_t{radius} * radius - d * d)));
+    }
+  }
+  // A part spans at most kRows rows, and with its first byte's other columns at most a word.
+  const double span_m = (Part::kRows - 2) * cells.cell_m() - 2.0 * widest_m;
+  part_ticks_ = static_cast<std::int32_t>(std::min(span_m, widest_m) * kTicksAMetre);
+  if (span_m < 2.0 * cells.cell_m() || part_ticks_ < 1) {
+    return false;
+  }
+  for (std::size_t kind = 0; kind < kAgentKinds; ++kind) {
+    clear_[kind].build(map, cells,
+                       static_cast<ClassSet>(obstacle_classes(map.classes) |
+                                             restricted_classes(map.classes, static_cast<AgentKind>(kind))));
+  }
+  free_segment_ = -1;
+  for (std::int32_t s = kSegments - 1; s >= 0; --s) {
+    segments_[index(s)].next_free = free_segment_;
+    free_segment_ = s;
+  }
+  free_part_ = -1;
+  for (std::int32_t p = kParts - 1; p >= 0; --p) {
+    parts_[index(p)].next = free_part_;
+    free_part_ = p;
+  }
+  free_parts_ = kParts;
+  return true;
+}
+
+bool SegmentPool::free(int agent, const Place& from, const Place& to, int& work) const noexcept {
+  if (from.node >= 0 && to.node >= 0) {
+    if (from.node == to.node) {
+      return true;
+    }
+    if (const Edge e = graph_->find(from.node, to.node); e >= 0 && in(graph_->open_to(e), agent)) {
+      return true;
+    }
+  }
+  const Body& body = bodies_[index(agent)];
+  const double radius_m = std::max(body.footprint_radius_m, clearance_m_);
+  const auto radius = static_cast<std::int32_t>(radius_m * kTicksAMetre + 1.0);
+  const auto width = static_cast<std::int32_t>(map_.width_m() * kTicksAMetre);
+  const auto height = static_cast<std::int32_t>(map_.height_m() * kTicksAMetre);
+  work += 4;
+  for (const Spot s : {from.spot, to.spot}) {
+    if (s.x < radius || s.y < radius || s.x > width - radius || s.y > height - radius) {
+      return false;
+    }
+  }
+  const Point a = point_at(from);
+  const Point b = point_at(to);
+  if (!body.restricted.empty() && touches(body.restricted, a, b)) {
+    return false;
+  }
+  if (clear_[static_cast<std::size_t>(body.kind)].surely_free(from.spot, to.spot, radius + 1)) {
+    return true;
+  }
+#if IVO_PLANNER_FIXED
+  return false;  // the exact test is libccd's, in floating point
+#else
+  work += 1 + static_cast<int>(std::abs(b.y_m - a.y_m) / map_.resolution_m);
+  return swept_disc_is_free(
+      map_, static_cast<ClassSet>(obstacle_classes(map_.classes) | restricted_classes(map_.classes, body.kind)), a, b,
+      radius_m);
+#endif
+}
+
+std::int32_t SegmentPool::make(int agent, const Place& from, const Place& to, int& work) noexcept {
+  const Metres length = distance(from.spot, to.spot);
+  const std::int64_t ticks = whole_ticks(length);
+  const auto parts = static_cast<std::int32_t>(std::max<std::int64_t>(1, (ticks + part_ticks_ - 1) / part_ticks_));
+  if (free_segment_ < 0 || free_parts_ < parts || !free(agent, from, to, work)) {
+    return -1;
+  }
+  const std::int32_t id = free_segment_;
+  Segment& segment = segments_[index(id)];
+  free_segment_ = segment.next_free;
+  segment = {.from = from, .to = to, .length = length, .first_part = free_part_, .parts = parts};
+  const Spot a = from.spot;
+  const Spot b = to.spot;
+  Spot p = a;
+  for (std::int32_t k = 1; k <= parts; ++k) {
+    const Spot q{a.x + static_cast<std::int32_t>(std::int64_t{b.x - a.x} * k / parts),
+                 a.y + static_cast<std::int32_t>(std::int64_t{b.y - a.y} * k / parts)};
+    const std::int32_t made = free_part_;
+    Part& part = parts_[index(made)];
+    free_part_ = part.next;
+    --free_parts_;
+    sweep(agent, p, q, part, work);
+    part.before = k == 1 ? -1 : segment.last_part;
+    segment.last_part = made;
+    p = q;
+  }
+  return id;
+}
+
+void SegmentPool::release(std::int32_t id) noexcept {
+  Segment& segment = segments_[index(id)];
+  parts_[index(segment.last_part)].next = free_part_;
+  free_part_ = segment.first_part;
+  free_parts_ += segment.parts;
+  segment.next_free = free_segment_;
+  free_segment_ = id;
+}
+
+// The cells whose centres lie in the disc swept from p to q, a run a row.
+void SegmentPool::sweep(int agent, Spot p, Spot q, Part& part, int& work) noexcept {
+  const Disc& disc = discs_[index(disc_of(agent))];
+  const std::int32_t radius = disc.radius;
+  const std::int64_t dx = q.x - p.x;
+  const std::int64_t dy = q.y - p.y;
+  const std::int64_t length = whole_ticks(distance(p, q));
+  const auto row_of = [&](std::int64_t ticks) {
+    return static_cast<std::int32_t>((std::max<std::int64_t>(0, ticks) * kQ * inverse_q_) >> 40);
+  };
+  const std::int32_t first_row = row_of(std::min(p.y, q.y) - radius);
+  const std::int32_t last_row = std::min(cells_->rows() - 1, row_of(std::max(p.y, q.y) + radius));
+  const std::int32_t first_column = row_of(std::min(p.x, q.x) - radius);
+  part.first_row = first_row;
+  part.first_byte = first_column / 8;
+  part.rows = std::min(last_row - first_row + 1, Part::kRows);
+  // The disc's two tangents: from where it touches at p to where it touches at q.
+  const std::int64_t nx = length > 0 ? -dy * radius / length : 0;
+  const std::int64_t ny = length > 0 ? dx * radius / length : 0;
+  const std::int64_t slope = dy != 0 ? (dx << 20) / dy : 0;
+  const int low_bit = part.first_byte * 8;
+  for (std::int32_t i = 0; i < part.rows; ++i) {
+    const std::int64_t y = ((2 * (first_row + std::int64_t{i}) + 1) * cell_q_) / (2 * kQ);
+    std::int64_t low = INT64_MAX;
+    std::int64_t high = INT64_MIN;
+    const auto widen = [&](std::int64_t a, std::int64_t b) {
+      low = std::min(low, a);
+      high = std::max(high, b);
+    };
+    for (const Spot centre : {p, q}) {
+      const std::int64_t off = std::abs(y - centre.y);
+      if (off <= radius) {
+        const std::int64_t half = disc.half[static_cast<std::size_t>(off)];
+        widen(centre.x - half, centre.x + half);
+      }
+    }
+    if (dy != 0) {
+      for (const std::int64_t side : {std::int64_t{1}, std::int64_t{-1}}) {
+        const std::int64_t from_y = p.y + side * ny;
+        const std::int64_t up = y - from_y;
+        if (dy > 0 ? up >= 0 && up <= dy : up <= 0 && up >= dy) {
+          const std::int64_t x = p.x + side * nx + ((up * slope) >> 20);
+          widen(x, x);
+        }
+      }
+    } else if (std::abs(y - p.y) <= radius) {
+      widen(std::min(p.x, q.x), std::max(p.x, q.x));
+    }
+    std::uint64_t word = 0;
+    if (low <= high) {
+      // Columns whose centres lie between: (column + 1/2) cell >= low, <= high.
+      const std::int64_t first =
+          std::max<std::int64_t>(0, ((std::max<std::int64_t>(0, 2 * low * kQ + cell_q_ - 1) * inverse_q_) >> 41));
+      const std::int64_t last = std::min<std::int64_t>(
+          cells_->columns() - 1, ((std::max<std::int64_t>(-1, 2 * high * kQ + cell_q_) * inverse_q_) >> 41) - 1);
+      const std::int64_t a = std::max<std::int64_t>(0, first - low_bit);
+      const std::int64_t b = std::min<std::int64_t>(63, last - low_bit);
+      if (a <= b) {
+        word = (~std::uint64_t{0} >> static_cast<unsigned>(63 - (b - a))) << static_cast<unsigned>(a);
+      }
+    }
+    part.words[index(i)] = word;
+  }
+  work += part.rows;
+  const CellWindow window{first_column, first_row,
+                          std::min(cells_->columns() - 1, row_of(std::max(p.x, q.x) + radius)), last_row};
+  if (window.first_column <= window.last_column && window.first_row <= window.last_row &&
+      cells_->any_occluder(window)) {
+    hide(agent, p, q, part, work);
+  }
+}
+
+// Keeps the cells that are seen from one of a few places on the way, at most half a sight radius apart.
+void SegmentPool::hide(int agent, Spot p, Spot q, Part& part, int& work) noexcept {
+  const double radius_m = bodies_[index(agent)].sight_radius_m;
+  const int looks = 3;
+  std::array<std::uint64_t, Part::kRows> kept{};
+  for (int k = 0; k < looks; ++k) {
+    const Point from = point_of({p.x + (q.x - p.x) * k / (looks - 1), p.y + (q.y - p.y) * k / (looks - 1)});
+    if (k > 0 && p == q) {
+      break;
+    }
+    for (std::int32_t i = 0; i < part.rows; ++i) {
+      const int row = part.first_row + i;
+      for_each_bit(part.words[index(i)] & ~kept[index(i)], [&](int bit) {
+        const int column = part.first_byte * 8 + bit;
+        if (within_radius(*cells_, from, column, row, radius_m + 0.5 * cells_->cell_m()) &&
+            line_of_sight(*cells_, from, cells_->at(column, row))) {
+          kept[index(i)] |= std::uint64_t{1} << static_cast<unsigned>(bit);
+        }
+      });
+      work += 8;
+    }
+  }
+  for (std::int32_t i = 0; i < part.rows; ++i) {
+    part.words[index(i)] = kept[index(i)];
+  }
+}
+
+}  // namespace ivo::planner

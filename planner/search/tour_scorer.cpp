@@ -1,0 +1,101 @@
+#include "planner/search/tour_scorer.hpp"
+
+#include <algorithm>
+
+namespace ivo::planner {
+
+void TourScorer::start(Tour& tour, double max_unseen_mass) noexcept {
+  tour_ = &tour;
+  max_unseen_mass_ = max_unseen_mass;
+  sightings_.clear(world_.cells.count());
+  expected_.clear();
+  phase_ = Phase::kReplay;
+  begin_agent(0);
+}
+
+int TourScorer::advance(int rows) noexcept {
+  return phase_ == Phase::kReplay ? replay(rows) : phase_ == Phase::kSum ? sum(rows) : 0;
+}
+
+int TourScorer::replay(int rows) noexcept {
+  if (edge_ == tour_->paths[index(agent_)].size()) {
+    begin_agent(agent_ + 1);
+    return 1;
+  }
+  const Edge e = tour_->paths[index(agent_)][edge_];
+  if (!events_.ready(agent_, e)) {
+    return events_.prepare(agent_, at_, e, rows);
+  }
+  const auto events = events_.along(agent_, e);
+  const Pace pace = world_.pace(agent_, e);
+  const int end = std::min(static_cast<int>(events.size()), row_ + rows);
+  const int work = end - row_ + 1;
+  const int agent = agent_;
+  const Seconds begin_s = time_s_;
+  for (int i = row_; i < end; ++i) {
+    const SightEvent event = events[index(i)];
+    (void)sightings_.see(event.cell(), agent, begin_s + after_points(pace, event.point()));
+  }
+  row_ = end;
+  if (row_ == static_cast<int>(events.size())) {
+    time_s_ += world_.seconds_along(agent_, e);
+    at_ = world_.graph.head(e);
+    ++edge_;
+    row_ = 0;
+  }
+  return work;
+}
+
+void TourScorer::begin_agent(int agent) noexcept {
+  agent_ = agent;
+  edge_ = 0;
+  at_ = agent;
+  time_s_ = Seconds{};
+  row_ = 0;
+  if (agent == world_.graph.agents()) {
+    phase_ = Phase::kSum;
+    return;
+  }
+  for (const Swath& swath : world_.sight.from_node(agent, agent).swaths) {
+    const std::uint64_t* const words = world_.sight.words(swath);
+    for (int i = 0; i < swath.rows; ++i) {
+      const Cell first = world_.cells.at(8 * swath.first_byte, swath.first_row + i);
+      for_each_bit(words[i], [&](int bit) { (void)sightings_.see(first + bit, agent, Seconds{}); });
+    }
+  }
+}
+
+int TourScorer::sum(int rows) noexcept {
+  const int count = std::min(rows, world_.belief.mass_cell_count - row_);
+  expected_.add(world_.belief, sightings_, row_, count);
+  row_ += count;
+  if (row_ == world_.belief.mass_cell_count) {
+    finish();
+    phase_ = Phase::kDone;
+  }
+  return count + 1;
+}
+
+void TourScorer::finish() noexcept {
+  Tour& tour = *tour_;
+  tour.score = expected_.score(world_.belief, max_unseen_mass_);
+  const Mass cost =
+      world_.belief.has_sub_priors ? expected_.expected_sub_prior_time(world_.belief) : expected_.expected_time();
+  tour.cost = {cost, cost};
+  tour.unseen = expected_.unseen();
+  tour.complete = tour.score.complete;
+  tour.scored = true;
+  for (int m = 0; m < world_.graph.agents(); ++m) {
+    EdgePath& path = tour.paths[index(m)];
+    const Seconds end_s = expected_.path_end_s(m);
+    Seconds time_s{};
+    std::size_t kept = 0;
+    while (kept < path.size() && time_s < end_s) {
+      time_s += world_.seconds_along(m, path[kept++]);
+    }
+    path.resize(kept);
+    tour.end_s[index(m)] = end_s;
+  }
+}
+
+}  // namespace ivo::planner

@@ -1,0 +1,49 @@
+// The exact cost of an ant's tour: every edge's first sightings replayed (Eq. 8 and 10), in parts.
+#pragma once
+
+#include "planner/search/edge_events.hpp"
+#include "planner/search/expected_time.hpp"
+#include "planner/search/first_sightings.hpp"
+#include "planner/search/tour.hpp"
+#include "planner/search/world.hpp"
+
+namespace ivo::planner {
+
+class TourScorer {
+ public:
+  /// `sightings` is its scratch.
+  TourScorer(const World& world, FirstSightings& sightings) noexcept
+      : world_(world), events_(world.cells, world.graph, world.sight), sightings_(sightings) {}
+
+  /// Another mission. Cost: the edges.
+  void open() noexcept { events_.clear(); }
+
+  /// `tour` lasts until done().
+  void start(Tour& tour, double max_unseen_mass) noexcept;
+  /// Up to about `rows` table rows. Returns the work done.
+  int advance(int rows) noexcept;
+  [[nodiscard]] bool done() const noexcept { return phase_ == Phase::kDone; }
+
+ private:
+  enum class Phase : std::uint8_t { kReplay, kSum, kDone };
+
+  int replay(int rows) noexcept;
+  int sum(int rows) noexcept;
+  void begin_agent(int agent) noexcept;
+  void finish() noexcept;
+
+  const World& world_;
+  EdgeEvents events_;
+  FirstSightings& sightings_;
+  ExpectedTime expected_;
+  Tour* tour_ = nullptr;
+  double max_unseen_mass_ = 0.0;
+  Phase phase_ = Phase::kDone;
+  int agent_ = 0;
+  std::size_t edge_ = 0;
+  Node at_ = 0;
+  Seconds time_s_{};
+  int row_ = 0;
+};
+
+}  // namespace ivo::planner

@@ -1,0 +1,31 @@
+// What every part of a search works on: tables made once, and read by all colonies.
+#pragma once
+
+#include <array>
+
+#include "planner/numeric/scalar.hpp"
+#include "planner/search/belief.hpp"
+#include "planner/world/graph.hpp"
+#include "planner/world/sight_table.hpp"
+
+namespace ivo::planner {
+
+/// Seconds that each agent takes from one sight point of an edge to the next.
+using EdgePaces = std::array<std::array<Pace, limits::kEdges>, limits::kAgents>;
+
+struct World {
+  const Cells& cells;
+  const Graph& graph;
+  const SightTable& sight;
+  const Belief& belief;
+  const EdgePaces& paces;
+
+  [[nodiscard]] Pace pace(int agent, Edge e) const noexcept { return paces[index(agent)][index(e)]; }
+  /// The time of the edge's last sight point to the last bit, so that a path that ends there does not seem to enter the
+  /// next edge.
+  [[nodiscard]] Seconds seconds_along(int agent, Edge e) const noexcept {
+    return after_points(pace(agent, e), sight.points(e));
+  }
+};
+
+}  // namespace ivo::planner
