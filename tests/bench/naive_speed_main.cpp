@@ -21,8 +21,8 @@ namespace {
 using namespace ivo;
 
 struct Options {
-  int generations = 2;
-  int ants = 3;
+  int generations = 4;  // what the planner builds at first use is a large part of fewer
+  int ants = 10;
   std::string json;
 };
 
