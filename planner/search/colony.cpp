@@ -22,7 +22,7 @@ void Colony::start(const ColonyParameters& parameters) noexcept {
   parameters_ = parameters;
   trails_.start(world_.graph, parameters.rho, parameters.heuristic == Heuristic::kTsp ? parameters.beta : 0);
   ant_.open();
-  scorer_.open();
+  scorer_.open(parameters.profile == Profile::kPaper);
   rng_ = Rng(parameters.seed);
   deposit_rng_ = Rng(~parameters.seed);
   generation_ = 0;

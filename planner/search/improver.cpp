@@ -12,7 +12,7 @@ constexpr int kStretch = 12;          // waypoints that 2-opt reverses at most
 constexpr int kSpare = 4;             // legs kept beyond the end of a plan: what follows if it must see more
 constexpr int kHottest = 400;         // a plan's cost over the first temperature
 constexpr double kLogCooling = -3.2;  // ln of the last temperature over the first
-constexpr int kScoreEvery = 400'000;  // units, or a sixteenth of all, between two exact scores
+constexpr int kScoreEvery = 250;      // proposals, or a twelfth of all, between two exact scores
 
 template <std::size_t N>
 bool insert_at(StaticVector<Leg, N>& legs, int i, Leg leg) noexcept {
@@ -125,7 +125,6 @@ void Improver::start(const Tour& tour) noexcept {
   round_ = 0;
   round_length_ = kFirstRound;
   round_done_ = 0;
-  units_ = 0;
   scored_at_ = 0;
   make_current();
 }
@@ -219,7 +218,6 @@ int Improver::advance(int rows) noexcept {
       work = scorer_.done() ? take_score() : scorer_.advance(rows);
       break;
   }
-  units_ += work;
   return work;
 }
 
@@ -630,8 +628,8 @@ void Improver::after_proposal() noexcept {
   ++proposals_;
   ++round_done_;
   const bool round_over = round_done_ >= round_length_;
-  const std::int64_t wait = std::max<std::int64_t>(kScoreEvery, units_ / 16);
-  if (remembered_ && (round_over || units_ - scored_at_ >= wait)) {
+  const int wait = std::max(kScoreEvery, proposals_ / 12);
+  if (remembered_ && (round_over || proposals_ - scored_at_ >= wait)) {
     start_score();
     return;
   }
@@ -660,7 +658,7 @@ void Improver::set_temperature() noexcept {
 
 void Improver::start_score() noexcept {
   remembered_ = false;
-  scored_at_ = units_;
+  scored_at_ = proposals_;
   StaticVector<WaypointPath, limits::kAgents> paths;
   for (int m = 0; m < agents_; ++m) {
     auto& points = points_[index(m)];

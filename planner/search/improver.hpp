@@ -145,8 +145,7 @@ class Improver {
   bool remembered_ = false;  // and not yet scored
   std::array<Waypoints, limits::kAgents> memory_{};
   std::array<StaticVector<Point, limits::kWaypoints>, limits::kAgents> points_{};  // of the memory, while it is scored
-  std::int64_t units_ = 0;
-  std::int64_t scored_at_ = 0;
+  int scored_at_ = 0;  // proposals by then
 
   bool has_best_ = false;
   PlanScore best_score_;

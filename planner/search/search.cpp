@@ -11,6 +11,9 @@ namespace {
 // Of MMAS, before its best plan is improved.
 constexpr int kFastGenerations = 5;
 
+// Of a part at most: what parts multiply it by stays a whole number.
+constexpr int kMostRows = 1 << 16;
+
 }  // namespace
 
 void Search::start(const ColonyParameters& parameters) noexcept {
@@ -31,10 +34,11 @@ void Search::start(const ColonyParameters& parameters) noexcept {
 void Search::step(Budget budget) noexcept {
   last_slice_ = kind();
   for (int left = budget.units; left > 0 && last_slice_ != SliceKind::kNone && kind() == last_slice_;) {
+    const int rows = std::min(left, kMostRows);
     if (improving_) {
-      left -= improver_.advance(left);
+      left -= improver_.advance(rows);
     } else if (!colony_.done()) {
-      left -= colony_.advance(left);
+      left -= colony_.advance(rows);
     } else {
       improver_.start(colony_.best());
       improving_ = true;

@@ -100,8 +100,9 @@ int TourScorer::sum(int rows) noexcept {
 void TourScorer::finish() noexcept {
   Tour& tour = *tour_;
   tour.score = expected_.score(world_.belief, max_unseen_mass_);
-  const Mass cost =
-      world_.belief.has_sub_priors ? expected_.expected_sub_prior_time(world_.belief) : expected_.expected_time();
+  const Mass cost = !world_.belief.has_sub_priors ? expected_.expected_time()
+                    : to_end_                     ? expected_.expected_sub_prior_time_to_end()
+                                                  : expected_.expected_sub_prior_time(world_.belief);
   tour.cost = {cost, cost};
   tour.unseen = expected_.unseen();
   tour.complete = tour.score.complete;
