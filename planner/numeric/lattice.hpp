@@ -1,8 +1,8 @@
 // Places off the graph lie on a lattice of 1/64 m, so that they are whole numbers on every processor.
 #pragma once
 
-#include <cstdint>
 #include <cmath>
+#include <cstdint>
 
 #include "config/base/geometry.hpp"
 #include "planner/numeric/scalar.hpp"

@@ -1,6 +1,6 @@
-// What the search computes with: doubles, or fixed point when the planner is built with IVO_PLANNER_FIXED (CMake option).
-// Tables - graph, sight, prior - are made with doubles in both; from the first ant on a fixed-point build uses whole
-// numbers alone.
+// What the search computes with: doubles, or fixed point when the planner is built with IVO_PLANNER_FIXED (CMake
+// option). Tables - graph, sight, prior - are made with doubles in both; from the first ant on a fixed-point build uses
+// whole numbers alone.
 //
 // | type    | holds                         | fixed format | range        | resolution     |
 // | ------- | ----------------------------- | ------------ | ------------ | -------------- |

@@ -20,7 +20,7 @@ struct Belief {
   std::array<Mass, limits::kCells> mass{};
   /// p_m: each sums to 1/M (Eq. 10); set when has_sub_priors.
   std::array<std::array<Mass, limits::kCells>, limits::kAgents> sub_mass{};
-  Mass alike{};  ///< p of every cell with mass when all have the same, else 0
+  Mass alike{};                                   ///< p of every cell with mass when all have the same, else 0
   std::array<Cell, limits::kCells> mass_cells{};  ///< the cells with mass, ascending
   int mass_cell_count = 0;
   int sub_prior_steps = 0;          ///< K of EST: steps of 1 s over which every plan of the mission is summed

@@ -1,5 +1,5 @@
-// At which sight point each cell is first seen along an edge: what exact scoring needs. Made when an edge is first scored
-// and kept in a ring, the oldest making room, so that the memory does not grow with the graph.
+// At which sight point each cell is first seen along an edge: what exact scoring needs. Made when an edge is first
+// scored and kept in a ring, the oldest making room, so that the memory does not grow with the graph.
 #pragma once
 
 #include <array>
@@ -63,8 +63,8 @@ class EdgeEvents {
   }
   void begin(int agent, Node tail, Edge e) noexcept;
   void make_room(int size) noexcept;
-  void add_row(const Swath& swath, int row) noexcept;
-  [[nodiscard]] int first_point(int column, int row, int from, int to) const noexcept;
+  int add_row(const Swath& swath, int row) noexcept;
+  [[nodiscard]] int first_point(int column, int row, int from, int to, int& work) const noexcept;
   void finish(int agent, Node tail, Edge e) noexcept;
 
   const Cells& cells_;

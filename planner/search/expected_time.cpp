@@ -30,9 +30,7 @@ void ExpectedTime::add(const Belief& belief, const FirstSightings& sightings, in
   *this = sums;
 }
 
-Seconds ExpectedTime::horizon_s() const noexcept {
-  return *std::max_element(path_end_s_.begin(), path_end_s_.end());
-}
+Seconds ExpectedTime::horizon_s() const noexcept { return *std::max_element(path_end_s_.begin(), path_end_s_.end()); }
 
 Mass ExpectedTime::unseen() const noexcept { return std::max(Mass{}, Mass(1) - seen_mass_); }
 
