@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <set>
 
 #include "firmware/tools/bench/rivals/free_ways.hpp"
 #include "firmware/tools/bench/rivals/greedy_planner.hpp"
@@ -15,6 +16,7 @@
 #include "tests/support/naive_evaluator.hpp"
 #include "tests/support/random_search.hpp"
 #include "tests/support/shared_planner.hpp"
+#include "tests/support/swath_cells.hpp"
 
 namespace ivo::firmware::rivals {
 namespace {
@@ -30,7 +32,8 @@ class Scene {
 
  private:
   static planner::PathScorer& scorer() {
-    static planner::PathScorer scorer;
+    static planner::FirstSightings sightings;
+    static planner::PathScorer scorer(sightings);
     return scorer;
   }
 };
@@ -123,6 +126,20 @@ TEST(Rivals, RepeatThemselvesForTheSameSeedAndTries) {
   }
 }
 
+// Of agent 0: what it sees along the edge and not yet from where the edge begins.
+std::set<planner::Cell> cells_along(const planner::Planner& planner, planner::Edge e) {
+  planner::Node tail = 0;
+  while (planner.graph().end_edge(tail) <= e) {
+    ++tail;
+  }
+  std::set<planner::Cell> cells;
+  test::for_each_cell(planner.cells(), planner.sight(), planner.sight().along_edge(0, e),
+                      [&](planner::Cell c, const planner::Swath&) { cells.insert(c); });
+  test::for_each_cell(planner.cells(), planner.sight(), planner.sight().from_node(0, tail),
+                      [&](planner::Cell c, const planner::Swath&) { cells.erase(c); });
+  return cells;
+}
+
 TEST(Rivals, CountACellOnceWhateverRowsShowIt) {
   std::mt19937_64 random(3);
   int searches = 0;
@@ -137,8 +154,8 @@ TEST(Rivals, CountACellOnceWhateverRowsShowIt) {
     const planner::Planner& planner = test::shared_planner();
     for (planner::Edge e = 0; e < planner.graph().edges(); e += 7) {
       double sum = 0.0;
-      for (const planner::SightEvent event : planner.sight().along_edge(0, e)) {
-        sum += planner.belief().mass[static_cast<std::size_t>(event.cell())];
+      for (const planner::Cell c : cells_along(planner, e)) {
+        sum += planner.belief().mass[static_cast<std::size_t>(c)];
       }
       EXPECT_NEAR(scene->coverage.new_mass(scene->coverage.along(0, e), CellSet(scene->coverage.words(), 0)), sum,
                   1e-12);
