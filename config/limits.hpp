@@ -12,9 +12,9 @@ struct Micro {
   static constexpr int kNodes = 256;
   static constexpr int kAgents = 2;
   static constexpr int kCells = 65'536;
-  static constexpr int kSightWords = 700'000;
+  static constexpr int kSightWords = 600'000;
   static constexpr int kSwaths = 30'000;
-  static constexpr int kSightEvents = 500'000;
+  static constexpr int kSightEvents = 350'000;
   static constexpr std::size_t kPlannerBytes = std::size_t{16} << 20U;
 };
 struct Onboard {

@@ -19,6 +19,7 @@ void Ant::start(const AntParameters& parameters, Heuristic heuristic, int beta) 
   unseen_ = Mass(1);
   low_steps_ = high_steps_ = Mass{};
   last_new_s_ = Seconds{};
+  second_wind_ = false;
   if (heuristic_ == Heuristic::kMts) {
     sectors_.start();
   }
@@ -46,6 +47,8 @@ int Ant::advance(Rng& rng, int rows) noexcept {
       return choose_node(rng);
     case Phase::kJump:
       return jump();
+    case Phase::kLookAround:
+      return look_around(rows);
     case Phase::kMove:
       return move(rows);
     case Phase::kDone:
@@ -65,6 +68,11 @@ int Ant::choose_agent(Rng& rng) noexcept {
       break;
     }
   }
+  if (left.empty() && parameters_.completes && !second_wind_ && !complete()) {
+    second_wind_ = true;
+    retired_.fill(false);
+    return 1;
+  }
   if (complete() || left.empty()) {
     phase_ = Phase::kDone;
     return 1;
@@ -81,6 +89,11 @@ int Ant::choose_agent(Rng& rng) noexcept {
     chosen = other < earliest ? other : other + 1;
   }
   agent_ = left[chosen];
+  if (second_wind_) {
+    jump_.start(world_.graph, agent_, at_[index(agent_)]);
+    phase_ = Phase::kJump;
+    return 1;
+  }
   phase_ = heuristic_ == Heuristic::kMts ? Phase::kWeigh : Phase::kChooseNode;
   if (phase_ == Phase::kWeigh) {
     sectors_.begin(agent_, at_[index(agent_)]);
@@ -130,8 +143,8 @@ int Ant::choose_node(Rng& rng) noexcept {
   return work;
 }
 
-bool Ant::shows_something_new(Node n, int& work) const noexcept {
-  for (const Swath& swath : world_.sight.from_node(agent_, n).swaths) {
+bool Ant::shows_something_new(const SightView& view, int& work) const noexcept {
+  for (const Swath& swath : view.swaths) {
     work += swath.rows;
     if (seen_.any_new(swath, world_.sight.words(swath))) {
       return true;
@@ -140,7 +153,8 @@ bool Ant::shows_something_new(Node n, int& work) const noexcept {
   return false;
 }
 
-// Without a candidate: to the nearest unvisited node that has unseen mass in sight, along the shortest path.
+// Without a candidate: to the nearest unvisited node that has unseen mass in sight, along the shortest path. The second
+// time round any node will do, and so will an edge that begins there.
 int Ant::jump() noexcept {
   const int work_before = jump_.work();
   const Node n = jump_.settle_next();
@@ -149,14 +163,42 @@ int Ant::jump() noexcept {
     retire();
     return work;
   }
-  if (!visited(n) && shows_something_new(n, work)) {
-    route_.clear();
-    for (Node step = n; jump_.edge_to(step) >= 0; step = jump_.before(step)) {
-      (void)route_.push_back(jump_.edge_to(step));
-    }
-    begin_move();
+  if ((second_wind_ || !visited(n)) && shows_something_new(world_.sight.from_node(agent_, n), work)) {
+    go_to(n);
+  } else if (second_wind_) {
+    around_ = n;
+    around_edge_ = world_.graph.first_edge(n);
+    phase_ = Phase::kLookAround;
   }
   return work;
+}
+
+int Ant::look_around(int rows) noexcept {
+  int work = 1;
+  for (; around_edge_ < world_.graph.end_edge(around_) && work <= rows; ++around_edge_) {
+    if (in(world_.graph.open_to(around_edge_), agent_) &&
+        shows_something_new(world_.sight.along_edge(agent_, around_edge_), work)) {
+      const Edge e = around_edge_;
+      go_to(around_);
+      // Last edge first: this one comes after the way to its node.
+      if (route_.push_back(e)) {
+        std::rotate(route_.begin(), route_.end() - 1, route_.end());
+      }
+      return work;
+    }
+  }
+  if (around_edge_ == world_.graph.end_edge(around_)) {
+    phase_ = Phase::kJump;
+  }
+  return work;
+}
+
+void Ant::go_to(Node n) noexcept {
+  route_.clear();
+  for (Node step = n; jump_.edge_to(step) >= 0; step = jump_.before(step)) {
+    (void)route_.push_back(jump_.edge_to(step));
+  }
+  begin_move();
 }
 
 void Ant::retire() noexcept {

@@ -19,6 +19,8 @@ namespace ivo::planner {
 struct AntParameters {
   double shortest_first = 0.9;     ///< q: probability of extending the agent whose path ends earliest in time
   double max_unseen_mass = 0.014;  ///< done at or below
+  /// When no unvisited node shows anything new, goes on to any node or along any edge that does: the nearest.
+  bool completes = false;
 };
 
 class Ant {
@@ -45,7 +47,7 @@ class Ant {
   [[nodiscard]] CostInterval cost() const noexcept;
 
  private:
-  enum class Phase : std::uint8_t { kChooseAgent, kWeigh, kChooseNode, kJump, kMove, kDone };
+  enum class Phase : std::uint8_t { kChooseAgent, kWeigh, kChooseNode, kJump, kLookAround, kMove, kDone };
   struct Move {
     Seconds end_s{};
     Mass shown{};  // what it showed first
@@ -55,6 +57,8 @@ class Ant {
   int weigh(int rows) noexcept;
   int choose_node(Rng& rng) noexcept;
   int jump() noexcept;
+  int look_around(int rows) noexcept;
+  void go_to(Node n) noexcept;
   int move(int rows) noexcept;
   void begin_move() noexcept;
   void look(const Swath& part, const std::uint64_t* words, int first_point, int last_point) noexcept;
@@ -63,7 +67,7 @@ class Ant {
   [[nodiscard]] bool may_share(int other, const EdgePath& path, std::size_t i, Edge e) const noexcept;
   void visit(Node n) noexcept { visited_[index(n)] = ant_number_; }
   [[nodiscard]] bool visited(Node n) const noexcept { return visited_[index(n)] == ant_number_; }
-  [[nodiscard]] bool shows_something_new(Node n, int& work) const noexcept;
+  [[nodiscard]] bool shows_something_new(const SightView& view, int& work) const noexcept;
 
   const World world_;
   const Trails& trails_;
@@ -94,6 +98,9 @@ class Ant {
   Mass shown_{};
   std::array<Weight, limits::kNodes> weights_{};
   JumpSearch jump_;
+  bool second_wind_ = false;  // all were done once, and what is left is seen to
+  Node around_ = -1;          // node whose edges are looked along, and the next of them
+  Edge around_edge_ = -1;
 };
 
 }  // namespace ivo::planner

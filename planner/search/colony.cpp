@@ -22,7 +22,7 @@ void Colony::start(const ColonyParameters& parameters) noexcept {
   parameters_ = parameters;
   trails_.start(world_.graph, parameters.rho, parameters.heuristic == Heuristic::kTsp ? parameters.beta : 0);
   ant_.open();
-  scorer_.open();
+  scorer_.open(parameters.profile == Profile::kPaper);
   rng_ = Rng(parameters.seed);
   deposit_rng_ = Rng(~parameters.seed);
   generation_ = 0;
@@ -38,17 +38,17 @@ void Colony::begin_generation() noexcept {
   ant_.start(parameters_.ant, parameters_.heuristic, parameters_.beta);
 }
 
-int Colony::advance() noexcept {
+int Colony::advance(int rows) noexcept {
   switch (phase_) {
     case Phase::kAnt:
-      return ant_.done() ? end_ant() : ant_.advance(rng_, kRowsAPart);
+      return ant_.done() ? end_ant() : ant_.advance(rng_, rows);
     case Phase::kScoreBest:
     case Phase::kScoreAnt:
-      return scorer_.done() ? (ants_over_ ? take_generation_best() : compare()) : scorer_.advance(kRowsAPart);
+      return scorer_.done() ? (ants_over_ ? take_generation_best() : compare()) : scorer_.advance(rows);
     case Phase::kRaise:
     case Phase::kEvaporate:
     case Phase::kClamp:
-      return sweep_trails();
+      return sweep_trails(rows);
     case Phase::kDone:
       break;
   }
@@ -156,9 +156,9 @@ void Colony::offer(const Tour& tour) noexcept {
 }
 
 // To tau_max after generation 1; then evaporation, deposit, clamp: over all trails, some rows at a time.
-int Colony::sweep_trails() noexcept {
+int Colony::sweep_trails(int rows) noexcept {
   const Graph& graph = world_.graph;
-  const Edge count = std::min<Edge>(kRowsAPart, graph.edges() - sweep_edge_);
+  const Edge count = std::min<Edge>(rows, graph.edges() - sweep_edge_);
   if (phase_ == Phase::kRaise) {
     trails_.raise_to_max(sweep_agent_, sweep_edge_, count);
   } else if (phase_ == Phase::kEvaporate) {

@@ -36,8 +36,8 @@ class Colony {
   /// Another mission. Cost: cells and edges.
   void start(const ColonyParameters& parameters) noexcept;
 
-  /// A part of the work, about kRowsAPart units at most. Returns the work done. Nothing when done.
-  int advance() noexcept;
+  /// A part of the work, about `rows` units at most. Returns the work done. Nothing when done.
+  int advance(int rows) noexcept;
 
   [[nodiscard]] bool done() const noexcept { return phase_ == Phase::kDone; }
   [[nodiscard]] int generation() const noexcept { return generation_; }  ///< finished
@@ -53,8 +53,6 @@ class Colony {
   enum class Phase : std::uint8_t { kAnt, kScoreBest, kScoreAnt, kRaise, kEvaporate, kClamp, kDone };
   [[nodiscard]] Phase phase() const noexcept { return phase_; }
 
-  static constexpr int kRowsAPart = 256;
-
  private:
   int end_ant() noexcept;
   int compare() noexcept;
@@ -63,7 +61,7 @@ class Colony {
   int end_generation() noexcept;
   int take_generation_best() noexcept;
   int deposit() noexcept;
-  int sweep_trails() noexcept;
+  int sweep_trails(int rows) noexcept;
   void score(Tour& tour, Phase phase) noexcept;
   [[nodiscard]] bool better(const Tour& a, const Tour& b) const noexcept;
   void set_best(const Tour& tour) noexcept;

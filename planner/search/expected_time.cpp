@@ -21,6 +21,7 @@ void ExpectedTime::add(const Belief& belief, const FirstSightings& sightings, in
     if (belief.has_sub_priors) {
       const Mass q = belief.sub_mass[s.credited][index(c)];
       sums.sub_mass_ += q;
+      sums.sub_mass_all_steps_ += q * steps;
       sums.sub_mass_steps_ += q * std::min(steps, belief.sub_prior_steps);
     }
     sums.extend_path(s.agent, s.time_s);
@@ -40,6 +41,10 @@ Mass ExpectedTime::expected_time() const noexcept { return mass_steps_ + unseen(
 
 Mass ExpectedTime::expected_sub_prior_time(const Belief& belief) const noexcept {
   return sub_mass_steps_ + std::max(Mass{}, Mass(1) - sub_mass_) * belief.sub_prior_steps;
+}
+
+Mass ExpectedTime::expected_sub_prior_time_to_end() const noexcept {
+  return sub_mass_all_steps_ + std::max(Mass{}, Mass(1) - sub_mass_) * step_of(horizon_s());
 }
 
 PlanScore ExpectedTime::score(const Belief& belief, double max_unseen_mass) const noexcept {

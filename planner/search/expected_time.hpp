@@ -30,8 +30,10 @@ class ExpectedTime {
   [[nodiscard]] Mass unseen() const noexcept;
   /// ET of Eq. 8 as the search compares it.
   [[nodiscard]] Mass expected_time() const noexcept;
-  /// EST of Eq. 10 likewise, over belief.sub_prior_steps.
+  /// EST of Eq. 10 likewise, over K = belief.sub_prior_steps.
   [[nodiscard]] Mass expected_sub_prior_time(const Belief& belief) const noexcept;
+  /// The same with K = N, the plan's own end: what the paper minimises.
+  [[nodiscard]] Mass expected_sub_prior_time_to_end() const noexcept;
   /// `max_unseen_mass` decides what is complete.
   [[nodiscard]] PlanScore score(const Belief& belief, double max_unseen_mass) const noexcept;
 
@@ -49,6 +51,7 @@ class ExpectedTime {
   Mass mass_steps_{};        // sum of p (max(k, 1) - 1)
   Mass sub_mass_{};          // sum of p_w
   Mass sub_mass_steps_{};    // sum of p_w min(max(k, 1) - 1, K)
+  Mass sub_mass_all_steps_{};  // the same without K
   std::array<Seconds, limits::kAgents> path_end_s_{};
 };
 

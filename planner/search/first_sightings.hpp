@@ -39,8 +39,9 @@ struct Sighting {
 
 class FirstSightings {
  public:
-  /// Forgets everything, for maps of `cells` cells. Cost: the cells, eight bytes each.
-  void clear(int cells) noexcept { std::fill_n(until_s_.begin(), cells, kNever); }
+  /// Forgets cells `first` to `first + count - 1`. Cost: eight bytes a cell.
+  void clear(int first, int count) noexcept { std::fill_n(until_s_.begin() + first, count, kNever); }
+  void clear(int cells) noexcept { clear(0, cells); }
 
   [[nodiscard]] bool seen(Cell c) const noexcept { return until_s_[index(c)] != kNever; }
   /// Of a cell that was seen.

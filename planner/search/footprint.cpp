@@ -14,12 +14,12 @@ std::span<const Planner::Part> Planner::parts() noexcept {
       {"sight", sizeof(sight_)},
       {"bounds", sizeof(bounds_)},
       {"paces", sizeof(paces_)},
-      {"sightings", sizeof(sightings_)},
-      {"colony", sizeof(colony_)},
-      {"improver", sizeof(improver_)},
+      {"sightings", sizeof(search_.sightings_)},
+      {"colony", sizeof(search_.colony_)},
+      {"improver", sizeof(search_.improver_)},
   };
   // Whoever adds a member adds it here.
-  constexpr std::size_t kSmall = 1024;
+  constexpr std::size_t kSmall = 262'144;
   constexpr std::size_t kNamed = [] {
     std::size_t sum = 0;
     for (const Part& part : kParts) {

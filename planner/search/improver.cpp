@@ -12,7 +12,7 @@ constexpr int kStretch = 12;          // waypoints that 2-opt reverses at most
 constexpr int kSpare = 4;             // legs kept beyond the end of a plan: what follows if it must see more
 constexpr int kHottest = 400;         // a plan's cost over the first temperature
 constexpr double kLogCooling = -3.2;  // ln of the last temperature over the first
-constexpr int kScoreEvery = 400'000;  // units, or a sixteenth of all, between two exact scores
+constexpr int kScoreEvery = 250;      // proposals, or a twelfth of all, between two exact scores
 
 template <std::size_t N>
 bool insert_at(StaticVector<Leg, N>& legs, int i, Leg leg) noexcept {
@@ -50,29 +50,29 @@ constexpr Seconds kLater = 1e300;
 
 }  // namespace
 
-bool Improver::open(const SegmentedMap& map, const Bodies& bodies, double clearance_m,
-                    const std::array<double, limits::kAgents>& speeds_mps,
-                    const ImproverParameters& parameters) noexcept {
+bool Improver::open(const ImproverParameters& parameters) noexcept {
+  const SegmentedMap& map = world_.map;
+  const Bodies& bodies = world_.bodies;
   parameters_ = parameters;
   agents_ = static_cast<int>(bodies.size());
-  speeds_mps_ = speeds_mps;
   has_best_ = false;
+  learned_ = false;
   proposals_ = 0;
   rng_ = Rng(parameters.seed);
-  if (!pool_.open(map, world_.cells, world_.graph, bodies, clearance_m)) {
+  if (!pool_.open()) {
     return false;
   }
   double widest_m = 0.0;
   double largest_m = 0.0;
   std::array<SecondsAMetre, limits::kAgents> paces{};
   for (int m = 0; m < agents_; ++m) {
-    paces[index(m)] = SecondsAMetre(1.0 / speeds_mps[index(m)]);
+    paces[index(m)] = SecondsAMetre(1.0 / world_.speeds_mps[index(m)]);
     widest_m = std::max(widest_m, bodies[index(m)].sight_radius_m);
     largest_m = std::max(largest_m, bodies[index(m)].footprint_radius_m);
   }
   right_ticks_ = static_cast<std::int32_t>(map.width_m() * kTicksAMetre);
   top_ticks_ = static_cast<std::int32_t>(map.height_m() * kTicksAMetre);
-  border_ticks_ = static_cast<std::int32_t>(std::max(largest_m, clearance_m) * kTicksAMetre) + 2;
+  border_ticks_ = static_cast<std::int32_t>(std::max(largest_m, world_.clearance_m) * kTicksAMetre) + 2;
   sight_ticks_ = std::max(8, static_cast<int>(widest_m * kTicksAMetre));
   lane_team_.width = right_ticks_;
   lane_team_.height = top_ticks_;
@@ -82,7 +82,7 @@ bool Improver::open(const SegmentedMap& map, const Bodies& bodies, double cleara
     const double sight_m = bodies[index(m)].sight_radius_m;
     lane_team_.starts[index(m)] = pool_.place_of(m).spot;
     lane_team_.sight[index(m)] = std::max(1, static_cast<std::int32_t>(sight_m * kTicksAMetre));
-    lane_team_.sweep[index(m)] = std::max(1, static_cast<std::int32_t>(sight_m * speeds_mps[index(m)] * 4096.0));
+    lane_team_.sweep[index(m)] = std::max(1, static_cast<std::int32_t>(sight_m * world_.speeds_mps[index(m)] * 4096.0));
   }
   judge_.open(world_.cells, world_.belief, paces, parameters.max_unseen_mass);
   for (int m = 0; m < agents_; ++m) {
@@ -125,7 +125,6 @@ void Improver::start(const Tour& tour) noexcept {
   round_ = 0;
   round_length_ = kFirstRound;
   round_done_ = 0;
-  units_ = 0;
   scored_at_ = 0;
   make_current();
 }
@@ -164,23 +163,31 @@ void Improver::make_current() noexcept {
   }
   restored_agent_ = 0;
   restored_ = 1;
+  restoring_ = -1;
   draft_broken_ = false;
   phase_ = Phase::kRestore;
 }
 
-int Improver::restore_leg() noexcept {
-  const Waypoints& way = draft_[index(restored_agent_)];
+int Improver::restore_leg(int rows) noexcept {
   work_ = 1;
-  if (restored_ < way.size()) {
-    const std::int32_t id = pool_.make(restored_agent_, way[restored_ - 1], way[restored_], work_);
-    if (id >= 0 && current_.legs[index(restored_agent_)].push_back({id, false})) {
-      ++restored_;
+  if (restoring_ >= 0) {
+    while (work_ <= rows) {
+      if (pool_.make_part(work_)) {
+        (void)current_.legs[index(restored_agent_)].push_back({restoring_, false});
+        restoring_ = -1;
+        ++restored_;
+        break;
+      }
+    }
+    return work_;
+  }
+  const Waypoints& way = draft_[index(restored_agent_)];
+  if (restored_ < way.size() && !current_.legs[index(restored_agent_)].full()) {
+    restoring_ = pool_.begin(restored_agent_, way[restored_ - 1], way[restored_], work_);
+    if (restoring_ >= 0) {
       return work_;
     }
-    if (way[restored_].node < 0) {  // lanes that something stands in the way of
-      draft_broken_ = true;
-    }
-    // No room for more: improve what there is.
+    draft_broken_ = true;  // something stands in the way, or there is no room: what there is goes on
   }
   ++restored_agent_;
   restored_ = 1;
@@ -195,7 +202,7 @@ int Improver::advance(int rows) noexcept {
   int work = 0;
   switch (phase_) {
     case Phase::kRestore:
-      work = restore_leg();
+      work = restore_leg(rows);
       break;
     case Phase::kJudgeFirst:
     case Phase::kJudge:
@@ -204,11 +211,13 @@ int Improver::advance(int rows) noexcept {
     case Phase::kPropose:
       work = propose();
       break;
+    case Phase::kMake:
+      work = make(rows);
+      break;
     case Phase::kScore:
       work = scorer_.done() ? take_score() : scorer_.advance(rows);
       break;
   }
-  units_ += work;
   return work;
 }
 
@@ -217,6 +226,9 @@ Place Improver::place(const Legs& legs, int agent, int i) const noexcept {
     return pool_.place_of(agent);
   }
   const Leg leg = legs[index(i - 1)];
+  if (leg.segment < 0) {
+    return wishes_[index(-1 - leg.segment)].to;
+  }
   return leg.back ? pool_[leg.segment].from : pool_[leg.segment].to;
 }
 
@@ -250,20 +262,53 @@ Place Improver::near(const Place& centre, int spread) noexcept {
 }
 
 bool Improver::put(int agent, Legs& legs, int i, const Place& from, const Place& to) noexcept {
-  if (from.spot == to.spot || made_.full()) {
+  if (from.spot == to.spot) {
     return false;
   }
-  const std::int32_t id = pool_.make(agent, from, to, work_);
-  if (id < 0) {
-    return false;
+  legs[index(i)] = {-1 - static_cast<std::int32_t>(wishes_.size()), false};
+  return wishes_.push_back({agent, from, to, -1, true});
+}
+
+// The segments that the candidate needs, a part at a time.
+int Improver::make(int rows) noexcept {
+  work_ = 1;
+  while (work_ <= rows && wish_ < wishes_.size()) {
+    Wish& wish = wishes_[wish_];
+    if (!wish.wanted) {
+      ++wish_;
+    } else if (wish.segment < 0) {
+      wish.segment = pool_.begin(wish.agent, wish.from, wish.to, work_);
+      if (wish.segment < 0) {
+        reject();
+        after_proposal();
+        return work_;
+      }
+    } else if (pool_.make_part(work_)) {
+      ++wish_;
+    }
   }
-  (void)made_.push_back(id);
-  legs[index(i)] = {id, false};
-  return true;
+  if (wish_ == wishes_.size()) {
+    fill_in();
+    judge_.start(candidate_, changed_s_);
+    phase_ = Phase::kJudge;
+  }
+  return work_;
+}
+
+void Improver::fill_in() noexcept {
+  for (int m = 0; m < agents_; ++m) {
+    for (Leg& leg : candidate_.legs[index(m)]) {
+      if (leg.segment < 0) {
+        leg.segment = wishes_[index(-1 - leg.segment)].segment;
+      }
+    }
+    work_ += size_of(candidate_.legs[index(m)]) / 8;
+  }
 }
 
 int Improver::propose() noexcept {
-  made_.clear();
+  wishes_.clear();
+  wish_ = 0;
   lost_.clear();
   changed_s_ = kLater;
   work_ = 4;
@@ -280,8 +325,7 @@ int Improver::propose() noexcept {
     work_ += size_of(current_.legs[index(m)]) / 8;
   }
   if (sound) {
-    judge_.start(candidate_, changed_s_);
-    phase_ = Phase::kJudge;
+    phase_ = Phase::kMake;
   } else {
     reject();
     after_proposal();
@@ -441,17 +485,13 @@ bool Improver::relocate(int agent) noexcept {
   return put(other, into, at, left, first) && put(other, into, at + 1 + size_of(moved), last, right);
 }
 
-// A leg that is no longer in the candidate: of the current route, or made for this candidate a moment ago.
+// A leg that is no longer in the candidate: of the current route, or wished for a moment ago.
 void Improver::take_out(const Leg& leg) noexcept {
-  for (std::size_t k = 0; k < made_.size(); ++k) {
-    if (made_[k] == leg.segment) {
-      pool_.release(leg.segment);
-      made_[k] = made_.back();
-      made_.pop_back();
-      return;
-    }
+  if (leg.segment < 0) {
+    wishes_[index(-1 - leg.segment)].wanted = false;
+  } else {
+    lose(leg);
   }
-  lose(leg);
 }
 
 // Two agents go on with each other's ways, from about the same time on.
@@ -510,6 +550,11 @@ int Improver::settle() noexcept {
   if (phase_ == Phase::kJudgeFirst) {
     judged_ = judgement;
     judge_.accept();
+    if (drafts_ > kLanePlans && learned_) {
+      learned_ = false;
+      remembered_cost_ = judged_.cost;
+      remembered_complete_ = judged_.complete;
+    }
     return drafts_ <= kLanePlans ? take_draft() : begin_round();
   }
   const MassTime worse = judgement.cost - judged_.cost;
@@ -558,8 +603,10 @@ void Improver::accept() noexcept {
 }
 
 void Improver::reject() noexcept {
-  for (const std::int32_t id : made_) {
-    pool_.release(id);
+  for (const Wish& wish : wishes_) {
+    if (wish.segment >= 0) {
+      pool_.release(wish.segment);
+    }
   }
 }
 
@@ -581,8 +628,8 @@ void Improver::after_proposal() noexcept {
   ++proposals_;
   ++round_done_;
   const bool round_over = round_done_ >= round_length_;
-  const std::int64_t wait = std::max<std::int64_t>(kScoreEvery, units_ / 16);
-  if (remembered_ && (round_over || units_ - scored_at_ >= wait)) {
+  const int wait = std::max(kScoreEvery, proposals_ / 12);
+  if (remembered_ && (round_over || proposals_ - scored_at_ >= wait)) {
     start_score();
     return;
   }
@@ -611,7 +658,7 @@ void Improver::set_temperature() noexcept {
 
 void Improver::start_score() noexcept {
   remembered_ = false;
-  scored_at_ = units_;
+  scored_at_ = proposals_;
   StaticVector<WaypointPath, limits::kAgents> paths;
   for (int m = 0; m < agents_; ++m) {
     auto& points = points_[index(m)];
@@ -619,23 +666,45 @@ void Improver::start_score() noexcept {
     for (const Place& p : memory_[index(m)]) {
       (void)points.push_back(pool_.point_at(p));
     }
-    (void)paths.push_back({points.span(), speeds_mps_[index(m)], world_.sight.radius_m(m)});
+    (void)paths.push_back({points.span(), world_.speeds_mps[index(m)], world_.sight.radius_m(m)});
   }
   scorer_.start(world_.cells, world_.belief, paths.span(), parameters_.max_unseen_mass);
   phase_ = Phase::kScore;
 }
 
+bool Improver::better(const PlanScore& a, const PlanScore& b) const noexcept {
+  if (a.complete != b.complete) {
+    return a.complete;
+  }
+  if (!a.complete) {
+    return a.unseen_mass < b.unseen_mass;
+  }
+  return world_.belief.has_sub_priors ? a.expected_sub_prior_time_s < b.expected_sub_prior_time_s
+                                      : a.expected_time_continuous_s < b.expected_time_continuous_s;
+}
+
+void Improver::learn_from(const Improver& other) noexcept {
+  if (!other.has_best_ || !better(other.best_score_, best_score_)) {
+    return;
+  }
+  has_best_ = true;
+  best_score_ = other.best_score_;
+  learned_ = true;
+  remembered_ = false;
+  remembered_complete_ = true;
+  remembered_cost_ = MassTime{};  // nothing of this round is remembered instead
+  for (int m = 0; m < agents_; ++m) {
+    best_[index(m)].assign(other.best_[index(m)]);
+    best_end_s_[index(m)] = other.best_end_s_[index(m)];
+    memory_[index(m)].assign(other.best_[index(m)]);
+  }
+}
+
 // The plan is shown only when it is better by the exact score.
 int Improver::take_score() noexcept {
   const PlanScore score = scorer_.score();
-  const bool sub_priors = world_.belief.has_sub_priors;
-  const double cost = sub_priors ? score.expected_sub_prior_time_s : score.expected_time_continuous_s;
-  const double best = sub_priors ? best_score_.expected_sub_prior_time_s : best_score_.expected_time_continuous_s;
-  const bool better = score.complete != best_score_.complete ? score.complete
-                      : score.complete                       ? cost < best
-                                                             : score.unseen_mass < best_score_.unseen_mass;
   int work = 1;
-  if (better) {
+  if (better(score, best_score_)) {
     has_best_ = true;
     best_score_ = score;
     for (int m = 0; m < agents_; ++m) {

@@ -30,17 +30,18 @@ using Waypoints = StaticVector<Place, limits::kWaypoints>;
 class Improver {
  public:
   Improver(const World& world, FirstSightings& sightings) noexcept
-      : world_(world), judge_(pool_), scorer_(sightings) {}
+      : world_(world), pool_(world), judge_(pool_), scorer_(sightings) {}
 
   /// Another mission: tables. False when there is nothing it could do (segment_pool.hpp).
-  [[nodiscard]] bool open(const SegmentedMap& map, const Bodies& bodies, double clearance_m,
-                          const std::array<double, limits::kAgents>& speeds_mps,
-                          const ImproverParameters& parameters) noexcept;
+  [[nodiscard]] bool open(const ImproverParameters& parameters) noexcept;
 
   /// Begins with a tour. Cost: its edges' segments.
   void start(const Tour& tour) noexcept;
 
-  /// A part of the work, about `rows` rows. Returns the work done.
+  /// Takes over another's best plan when it is better: its next round begins with it.
+  void learn_from(const Improver& other) noexcept;
+
+  /// A part of the work, about `rows` rows at most. Returns the work done.
   int advance(int rows) noexcept;
   [[nodiscard]] int generation() const noexcept { return proposals_ / parameters_.proposals_a_generation; }
 
@@ -52,7 +53,7 @@ class Improver {
   [[nodiscard]] Point point_at(const Place& place) const noexcept { return pool_.point_at(place); }
 
   /// What the next part works on; slices are compared within a kind.
-  enum class Phase : std::uint8_t { kRestore, kJudgeFirst, kPropose, kJudge, kScore };
+  enum class Phase : std::uint8_t { kRestore, kJudgeFirst, kPropose, kMake, kJudge, kScore };
   [[nodiscard]] Phase phase() const noexcept { return phase_; }
 
  private:
@@ -60,7 +61,7 @@ class Improver {
   void recall() noexcept;
   void make_current() noexcept;
   int take_draft() noexcept;
-  int restore_leg() noexcept;
+  int restore_leg(int rows) noexcept;
   int propose() noexcept;
   bool shift(int agent) noexcept;
   bool add(int agent) noexcept;
@@ -84,6 +85,9 @@ class Improver {
   [[nodiscard]] Place near(const Place& centre, int spread) noexcept;
   [[nodiscard]] int pick_spread() noexcept;
   [[nodiscard]] bool put(int agent, Legs& legs, int i, const Place& from, const Place& to) noexcept;
+  int make(int rows) noexcept;
+  void fill_in() noexcept;
+  [[nodiscard]] bool better(const PlanScore& a, const PlanScore& b) const noexcept;
   void lose(const Leg& leg) noexcept { (void)lost_.push_back(leg.segment); }
   void take_out(const Leg& leg) noexcept;
   void changed(Seconds at) noexcept { changed_s_ = std::min(changed_s_, at); }
@@ -96,7 +100,6 @@ class Improver {
   Rng rng_;
   Phase phase_ = Phase::kPropose;
   int agents_ = 0;
-  std::array<double, limits::kAgents> speeds_mps_{};
   std::int32_t sight_ticks_ = 1;
   std::int32_t border_ticks_ = 0;  // least distance of a waypoint from the border
   std::int32_t right_ticks_ = 0;
@@ -106,8 +109,16 @@ class Improver {
   Route candidate_;
   Judgement judged_;  // of current_
   Legs spare_;
-  StaticVector<std::int32_t, 64> made_;  // segments of the candidate alone
-  StaticVector<std::int32_t, 64> lost_;  // segments of the current route alone
+  struct Wish {  // a segment that the candidate needs; its leg holds -1 - its number until it is made
+    int agent = 0;
+    Place from;
+    Place to;
+    std::int32_t segment = -1;
+    bool wanted = true;
+  };
+  StaticVector<Wish, 8> wishes_;
+  std::size_t wish_ = 0;  // the one under way
+  StaticVector<std::int32_t, 16> lost_;  // segments of the current route alone
   Seconds changed_s_{};
   int work_ = 0;
 
@@ -124,16 +135,17 @@ class Improver {
   Lanes lanes_;
   int drafts_ = 0;  // judged
   bool draft_broken_ = false;
+  bool learned_ = false;  // the memory is another's: its cost here is not known yet
   std::array<Waypoints, limits::kAgents> draft_{};
   int restored_agent_ = 0;
   std::size_t restored_ = 0;
+  std::int32_t restoring_ = -1;  // the segment under way
   MassTime remembered_cost_{};
   bool remembered_complete_ = false;
   bool remembered_ = false;  // and not yet scored
   std::array<Waypoints, limits::kAgents> memory_{};
   std::array<StaticVector<Point, limits::kWaypoints>, limits::kAgents> points_{};  // of the memory, while it is scored
-  std::int64_t units_ = 0;
-  std::int64_t scored_at_ = 0;
+  int scored_at_ = 0;  // proposals by then
 
   bool has_best_ = false;
   PlanScore best_score_;

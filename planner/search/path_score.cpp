@@ -44,10 +44,9 @@ void PathScorer::start(const Cells& cells, const Belief& belief, std::span<const
     (void)paths_.push_back(path);
   }
   max_unseen_mass_ = max_unseen_mass;
-  sightings_.clear(cells.count());
   expected_.clear();
-  phase_ = Phase::kLook;
-  begin_agent(0);
+  cell_ = 0;
+  phase_ = Phase::kClear;
 }
 
 void PathScorer::begin_agent(int agent) noexcept {
@@ -79,6 +78,19 @@ void PathScorer::begin_leg() noexcept {
 
 int PathScorer::advance(int rows) noexcept {
   int work = 1;
+  if (phase_ == Phase::kClear) {
+    constexpr int kCellsARow = 16;  // so many cost no more than a row of a disc
+    const int count = std::min(rows, cells_->count() / kCellsARow + 1) * kCellsARow;
+    const int cells = std::min(count, cells_->count() - cell_);
+    sightings_.clear(cell_, cells);
+    cell_ += cells;
+    work += cells / kCellsARow;
+    if (cell_ < cells_->count()) {
+      return work;
+    }
+    phase_ = Phase::kLook;
+    begin_agent(0);
+  }
   while (phase_ == Phase::kLook && work <= rows) {
     const WaypointPath& path = paths_[index(agent_)];
     if (leg_ + 1 >= path.waypoints.size()) {

@@ -51,7 +51,7 @@ class PathScorer {
   [[nodiscard]] double path_end_s(int agent) const noexcept { return to_double(expected_.path_end_s(agent)); }
 
  private:
-  enum class Phase : std::uint8_t { kLook, kSum, kDone };
+  enum class Phase : std::uint8_t { kClear, kLook, kSum, kDone };
 
   void begin_agent(int agent) noexcept;
   void begin_leg() noexcept;

@@ -12,8 +12,7 @@
 #include "planner/prior/sub_priors.hpp"
 #include "planner/refusal.hpp"
 #include "planner/search/bounds.hpp"
-#include "planner/search/colony.hpp"
-#include "planner/search/improver.hpp"
+#include "planner/search/search.hpp"
 #include "planner/search/plan.hpp"
 #include "planner/world/cells.hpp"
 #include "planner/world/graph.hpp"
@@ -41,19 +40,6 @@ struct SearchProblem {
   ColonyParameters colony;
 };
 
-/// Work is counted in units: a table row, a candidate edge, a trail. A unit costs a few nanoseconds.
-struct Budget {
-  int units = 0;
-};
-
-struct Progress {
-  int generation = 0;
-  int generations = 0;
-  bool done = false;
-  bool has_plan = false;
-  PlanScore best;  ///< when has_plan
-};
-
 class Planner {
  public:
   Planner() noexcept = default;
@@ -61,17 +47,22 @@ class Planner {
   Planner& operator=(const Planner&) = delete;
 
   /// Builds cells, graph, prior, sight table and sub-priors, and readies the search. At start-up: its cost has no small
-  /// bound. What it refuses, it names; after a refusal only prepare() may be called.
+  /// bound. What it refuses, it names; after a refusal only prepare() may be called. The map's pixels outlive the search.
   [[nodiscard]] Refusal prepare(const SearchProblem& problem) noexcept;
 
-  /// Searches on for at most about `budget.units`; the last part may go over by one part (Colony::kRowsAPart). Nothing
-  /// when done.
-  Progress step(Budget budget) noexcept;
-  [[nodiscard]] Progress progress() const noexcept;
+  /// As Search has them.
+  Progress step(Budget budget) noexcept {
+    search_.step(budget);
+    return search_.progress();
+  }
+  [[nodiscard]] Progress progress() const noexcept { return search_.progress(); }
+  [[nodiscard]] SliceKind last_slice_kind() const noexcept { return search_.last_slice(); }
+  void best_plan(Plan& plan) const noexcept { search_.best_plan(plan); }
 
-  /// The best plan so far: complete plans by cost (EST with sub-priors, else ET), before incomplete ones by unseen
-  /// mass. Cost: the copy of its waypoints.
-  void best_plan(Plan& plan) const noexcept;
+  /// The first of the searches on these tables; others may be made on world() and started with parameters().
+  [[nodiscard]] Search& search() noexcept { return search_; }
+  [[nodiscard]] const World& world() const noexcept { return world_; }
+  [[nodiscard]] const ColonyParameters& parameters() const noexcept { return parameters_; }
 
   /// What no plan that leaves `unseen_mass` can be better than. Cost: bounds.hpp.
   [[nodiscard]] Bounds bounds(double unseen_mass) const noexcept { return bounds_.at(unseen_mass); }
@@ -94,9 +85,6 @@ class Planner {
  private:
   void build_bounds(const SearchProblem& problem) noexcept;
   void fill_paces() noexcept;
-  void open_improver(const SearchProblem& problem) noexcept;
-  [[nodiscard]] bool improved() const noexcept { return profile_ == Profile::kFast && improver_.has_best(); }
-  void cut(AgentPath& path, double end_s, double speed_mps) const noexcept;
 
   Cells cells_;
   Graph graph_;
@@ -105,17 +93,14 @@ class Planner {
   SightTable sight_;
   BoundTable bounds_;
   EdgePaces paces_{};
-  World world_{cells_, graph_, sight_, belief_, paces_};
-  FirstSightings sightings_;  // scratch of whoever scores
-  Colony colony_{world_, sightings_};
   std::array<double, limits::kAgents> speeds_mps_{};
+  SegmentedMap map_;
+  Bodies bodies_;
+  double clearance_m_ = 0.0;
+  World world_{cells_, graph_, sight_, belief_, paces_, speeds_mps_, map_, bodies_, clearance_m_};
+  Search search_{world_};
+  ColonyParameters parameters_;
   AgentSet left_without_sub_prior_ = 0;
-  Improver improver_{world_, sightings_};
-  Profile profile_ = Profile::kFast;
-  int generations_ = 0;
-  bool improvable_ = false;
-  bool improving_ = false;
-  bool ready_ = false;
 };
 
 }  // namespace ivo::planner

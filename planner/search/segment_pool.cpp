@@ -12,13 +12,10 @@ constexpr int kQ = 256;  // parts of a tick
 
 }  // namespace
 
-bool SegmentPool::open(const SegmentedMap& map, const Cells& cells, const Graph& graph, const Bodies& bodies,
-                       double clearance_m) noexcept {
-  map_ = map;
-  cells_ = &cells;
-  graph_ = &graph;
-  bodies_ = bodies;
-  clearance_m_ = clearance_m;
+bool SegmentPool::open() noexcept {
+  const Cells& cells = world_.cells;
+  const Bodies& bodies = world_.bodies;
+  const SegmentedMap& map = world_.map;
   cell_q_ = static_cast<std::int64_t>(cells.cell_m() * kTicksAMetre * kQ + 0.5);
   inverse_q_ = (std::int64_t{1} << 40) / cell_q_;
   int discs = 0;
@@ -75,15 +72,15 @@ bool SegmentPool::free(int agent, const Place& from, const Place& to, int& work)
     if (from.node == to.node) {
       return true;
     }
-    if (const Edge e = graph_->find(from.node, to.node); e >= 0 && in(graph_->open_to(e), agent)) {
+    if (const Edge e = world_.graph.find(from.node, to.node); e >= 0 && in(world_.graph.open_to(e), agent)) {
       return true;
     }
   }
-  const Body& body = bodies_[index(agent)];
-  const double radius_m = std::max(body.footprint_radius_m, clearance_m_);
+  const Body& body = world_.bodies[index(agent)];
+  const double radius_m = std::max(body.footprint_radius_m, world_.clearance_m);
   const auto radius = static_cast<std::int32_t>(radius_m * kTicksAMetre + 1.0);
-  const auto width = static_cast<std::int32_t>(map_.width_m() * kTicksAMetre);
-  const auto height = static_cast<std::int32_t>(map_.height_m() * kTicksAMetre);
+  const auto width = static_cast<std::int32_t>(world_.map.width_m() * kTicksAMetre);
+  const auto height = static_cast<std::int32_t>(world_.map.height_m() * kTicksAMetre);
   work += 4;
   for (const Spot s : {from.spot, to.spot}) {
     if (s.x < radius || s.y < radius || s.x > width - radius || s.y > height - radius) {
@@ -101,38 +98,59 @@ bool SegmentPool::free(int agent, const Place& from, const Place& to, int& work)
 #if IVO_PLANNER_FIXED
   return false;  // the exact test is libccd's, in floating point
 #else
-  work += 1 + static_cast<int>(std::abs(b.y_m - a.y_m) / map_.resolution_m);
+  work += 1 + static_cast<int>(std::abs(b.y_m - a.y_m) / world_.map.resolution_m);
   return swept_disc_is_free(
-      map_, static_cast<ClassSet>(obstacle_classes(map_.classes) | restricted_classes(map_.classes, body.kind)), a, b,
+      world_.map, static_cast<ClassSet>(obstacle_classes(world_.map.classes) | restricted_classes(world_.map.classes, body.kind)), a, b,
       radius_m);
 #endif
 }
 
-std::int32_t SegmentPool::make(int agent, const Place& from, const Place& to, int& work) noexcept {
+std::int32_t SegmentPool::begin(int agent, const Place& from, const Place& to, int& work) noexcept {
   const Metres length = distance(from.spot, to.spot);
   const std::int64_t ticks = whole_ticks(length);
   const auto parts = static_cast<std::int32_t>(std::max<std::int64_t>(1, (ticks + part_ticks_ - 1) / part_ticks_));
   if (free_segment_ < 0 || free_parts_ < parts || !free(agent, from, to, work)) {
     return -1;
   }
-  const std::int32_t id = free_segment_;
-  Segment& segment = segments_[index(id)];
+  making_ = free_segment_;
+  Segment& segment = segments_[index(making_)];
   free_segment_ = segment.next_free;
-  segment = {.from = from, .to = to, .length = length, .first_part = free_part_, .parts = parts};
-  const Spot a = from.spot;
-  const Spot b = to.spot;
-  Spot p = a;
-  for (std::int32_t k = 1; k <= parts; ++k) {
-    const Spot q{a.x + static_cast<std::int32_t>(std::int64_t{b.x - a.x} * k / parts),
-                 a.y + static_cast<std::int32_t>(std::int64_t{b.y - a.y} * k / parts)};
-    const std::int32_t made = free_part_;
-    Part& part = parts_[index(made)];
+  segment = {.from = from, .to = to, .length = length, .first_part = free_part_, .last_part = -1, .parts = parts};
+  // All its parts at once, so that it can be released before they are made.
+  std::int32_t before = -1;
+  for (std::int32_t k = 0; k < parts; ++k) {
+    Part& part = parts_[index(free_part_)];
+    part.before = before;
+    before = free_part_;
     free_part_ = part.next;
-    --free_parts_;
-    sweep(agent, p, q, part, work);
-    part.before = k == 1 ? -1 : segment.last_part;
-    segment.last_part = made;
-    p = q;
+  }
+  segment.last_part = before;
+  free_parts_ -= parts;
+  next_part_ = segment.first_part;
+  parts_made_ = 0;
+  agent_ = agent;
+  return making_;
+}
+
+bool SegmentPool::make_part(int& work) noexcept {
+  const Segment& segment = segments_[index(making_)];
+  const Spot a = segment.from.spot;
+  const Spot b = segment.to.spot;
+  const auto at = [&](std::int32_t k) {
+    return Spot{a.x + static_cast<std::int32_t>(std::int64_t{b.x - a.x} * k / segment.parts),
+                a.y + static_cast<std::int32_t>(std::int64_t{b.y - a.y} * k / segment.parts)};
+  };
+  Part& part = parts_[index(next_part_)];
+  sweep(agent_, at(parts_made_), at(parts_made_ + 1), part, work);
+  next_part_ = part.next;
+  return ++parts_made_ == segment.parts;
+}
+
+std::int32_t SegmentPool::make(int agent, const Place& from, const Place& to, int& work) noexcept {
+  const std::int32_t id = begin(agent, from, to, work);
+  if (id >= 0) {
+    while (!make_part(work)) {
+    }
   }
   return id;
 }
@@ -157,7 +175,7 @@ void SegmentPool::sweep(int agent, Spot p, Spot q, Part& part, int& work) noexce
     return static_cast<std::int32_t>((std::max<std::int64_t>(0, ticks) * kQ * inverse_q_) >> 40);
   };
   const std::int32_t first_row = row_of(std::min(p.y, q.y) - radius);
-  const std::int32_t last_row = std::min(cells_->rows() - 1, row_of(std::max(p.y, q.y) + radius));
+  const std::int32_t last_row = std::min(world_.cells.rows() - 1, row_of(std::max(p.y, q.y) + radius));
   const std::int32_t first_column = row_of(std::min(p.x, q.x) - radius);
   part.first_row = first_row;
   part.first_byte = first_column / 8;
@@ -200,7 +218,7 @@ void SegmentPool::sweep(int agent, Spot p, Spot q, Part& part, int& work) noexce
       const std::int64_t first =
           std::max<std::int64_t>(0, ((std::max<std::int64_t>(0, 2 * low * kQ + cell_q_ - 1) * inverse_q_) >> 41));
       const std::int64_t last = std::min<std::int64_t>(
-          cells_->columns() - 1, ((std::max<std::int64_t>(-1, 2 * high * kQ + cell_q_) * inverse_q_) >> 41) - 1);
+          world_.cells.columns() - 1, ((std::max<std::int64_t>(-1, 2 * high * kQ + cell_q_) * inverse_q_) >> 41) - 1);
       const std::int64_t a = std::max<std::int64_t>(0, first - low_bit);
       const std::int64_t b = std::min<std::int64_t>(63, last - low_bit);
       if (a <= b) {
@@ -211,16 +229,16 @@ void SegmentPool::sweep(int agent, Spot p, Spot q, Part& part, int& work) noexce
   }
   work += part.rows;
   const CellWindow window{first_column, first_row,
-                          std::min(cells_->columns() - 1, row_of(std::max(p.x, q.x) + radius)), last_row};
+                          std::min(world_.cells.columns() - 1, row_of(std::max(p.x, q.x) + radius)), last_row};
   if (window.first_column <= window.last_column && window.first_row <= window.last_row &&
-      cells_->any_occluder(window)) {
+      world_.cells.any_occluder(window)) {
     hide(agent, p, q, part, work);
   }
 }
 
 // Keeps the cells that are seen from one of a few places on the way, at most half a sight radius apart.
 void SegmentPool::hide(int agent, Spot p, Spot q, Part& part, int& work) noexcept {
-  const double radius_m = bodies_[index(agent)].sight_radius_m;
+  const double radius_m = world_.bodies[index(agent)].sight_radius_m;
   const int looks = 3;
   std::array<std::uint64_t, Part::kRows> kept{};
   for (int k = 0; k < looks; ++k) {
@@ -232,8 +250,8 @@ void SegmentPool::hide(int agent, Spot p, Spot q, Part& part, int& work) noexcep
       const int row = part.first_row + i;
       for_each_bit(part.words[index(i)] & ~kept[index(i)], [&](int bit) {
         const int column = part.first_byte * 8 + bit;
-        if (within_radius(*cells_, from, column, row, radius_m + 0.5 * cells_->cell_m()) &&
-            line_of_sight(*cells_, from, cells_->at(column, row))) {
+        if (within_radius(world_.cells, from, column, row, radius_m + 0.5 * world_.cells.cell_m()) &&
+            line_of_sight(world_.cells, from, world_.cells.at(column, row))) {
           kept[index(i)] |= std::uint64_t{1} << static_cast<unsigned>(bit);
         }
       });

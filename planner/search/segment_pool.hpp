@@ -9,27 +9,10 @@
 
 #include "config/limits.hpp"
 #include "planner/numeric/lattice.hpp"
+#include "planner/search/world.hpp"
 #include "planner/world/clearance_map.hpp"
-#include "planner/world/graph.hpp"
-#include "planner/world/polygon.hpp"
-#include "planner/world/sight_table.hpp"
 
 namespace ivo::planner {
-
-/// Who moves: what decides whether a segment is free and what is seen along it.
-struct Body {
-  AgentKind kind = AgentKind::kRobot;
-  double footprint_radius_m = 0.30;
-  double sight_radius_m = 2.5;
-  Areas restricted;
-
-  /// A segment of one is good for the other.
-  [[nodiscard]] bool like(const Body& other) const noexcept {
-    return kind == other.kind && footprint_radius_m == other.footprint_radius_m &&
-           sight_radius_m == other.sight_radius_m && restricted.empty() && other.restricted.empty();
-  }
-};
-using Bodies = StaticVector<Body, limits::kAgents>;
 
 /// What is seen from a short part of a segment: as a Swath, with its words.
 struct Part {
@@ -64,22 +47,27 @@ class SegmentPool {
   static constexpr int kSegments = 4 * limits::kNodes;
   static constexpr int kParts = 4 * limits::kNodes;
 
-  /// Another mission. `map` and `cells` outlive this. False when a sight disc is too many cells wide for a part.
-  [[nodiscard]] bool open(const SegmentedMap& map, const Cells& cells, const Graph& graph, const Bodies& bodies,
-                          double clearance_m) noexcept;
+  explicit SegmentPool(const World& world) noexcept : world_(world) {}
 
-  /// A segment for `agent`, -1 when it is not proved free or there is no room. An edge of the graph is proved; anything
-  /// else must keep the nodes' clearance all along. Adds the work done to `work`.
+  /// Another mission. False when a sight disc is too many cells wide for a part. Cost: the pixels and the cells.
+  [[nodiscard]] bool open() noexcept;
+
+  /// Begins a segment for `agent`; -1 when it is not proved free or there is no room. An edge of the graph is proved;
+  /// anything else must keep the nodes' clearance all along. Adds the work done to `work`.
+  [[nodiscard]] std::int32_t begin(int agent, const Place& from, const Place& to, int& work) noexcept;
+  /// Makes the next part of the segment begun last; true when it was the last. Adds the work done to `work`.
+  [[nodiscard]] bool make_part(int& work) noexcept;
+  /// Both at once.
   [[nodiscard]] std::int32_t make(int agent, const Place& from, const Place& to, int& work) noexcept;
   void release(std::int32_t segment) noexcept;
 
   [[nodiscard]] const Segment& operator[](std::int32_t s) const noexcept { return segments_[index(s)]; }
   [[nodiscard]] const Part& part(std::int32_t p) const noexcept { return parts_[index(p)]; }
   /// True when both may use the same segments.
-  [[nodiscard]] bool alike(int a, int b) const noexcept { return bodies_[index(a)].like(bodies_[index(b)]); }
-  [[nodiscard]] Place place_of(Node n) const noexcept { return {spot_at(graph_->position(n)), n}; }
+  [[nodiscard]] bool alike(int a, int b) const noexcept { return world_.bodies[index(a)].like(world_.bodies[index(b)]); }
+  [[nodiscard]] Place place_of(Node n) const noexcept { return {spot_at(world_.graph.position(n)), n}; }
   [[nodiscard]] Point point_at(const Place& place) const noexcept {
-    return place.node >= 0 ? graph_->position(place.node) : point_of(place.spot);
+    return place.node >= 0 ? world_.graph.position(place.node) : point_of(place.spot);
   }
 
  private:
@@ -93,11 +81,7 @@ class SegmentPool {
   void hide(int agent, Spot p, Spot q, Part& part, int& work) noexcept;
   [[nodiscard]] int disc_of(int agent) const noexcept { return disc_of_agent_[index(agent)]; }
 
-  SegmentedMap map_;
-  const Cells* cells_ = nullptr;
-  const Graph* graph_ = nullptr;
-  Bodies bodies_;
-  double clearance_m_ = 0.0;
+  const World& world_;
   std::int64_t cell_q_ = 1;  // side of a cell, in 1/256 tick
   std::int64_t inverse_q_ = 1;  // 2^40 / cell_q_
   std::int32_t part_ticks_ = 1;  // longest part
@@ -107,6 +91,12 @@ class SegmentPool {
 
   std::array<Segment, kSegments> segments_{};
   std::array<Part, kParts> parts_{};
+  // The segment under way.
+  std::int32_t making_ = -1;
+  std::int32_t next_part_ = -1;
+  std::int32_t parts_made_ = 0;
+  int agent_ = 0;
+
   std::int32_t free_segment_ = -1;
   std::int32_t free_part_ = -1;
   std::int32_t free_parts_ = 0;

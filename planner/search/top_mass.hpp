@@ -10,13 +10,14 @@
 
 #include "config/limits.hpp"
 #include "planner/numeric/index.hpp"
+#include "planner/numeric/scalar.hpp"
 
 namespace ivo::planner {
 
 class TopMass {
  public:
   /// None is in. `by_rank` are the masses, largest first; it stays the caller's. Cost: the masses over 64.
-  void start(std::span<const std::int32_t> by_rank, std::span<const double> mass) noexcept {
+  void start(std::span<const std::int32_t> by_rank, std::span<const Mass> mass) noexcept {
     by_rank_ = by_rank;
     mass_ = mass;
     blocks_ = (by_rank.size() + kBlock - 1) / kBlock;
@@ -68,10 +69,10 @@ class TopMass {
     std::int32_t count = 0;
   };
 
-  [[nodiscard]] double mass_of(std::size_t rank) const noexcept { return mass_[index(by_rank_[rank])]; }
+  [[nodiscard]] double mass_of(std::size_t rank) const noexcept { return to_double(mass_[index(by_rank_[rank])]); }
 
   std::span<const std::int32_t> by_rank_;
-  std::span<const double> mass_;
+  std::span<const Mass> mass_;
   std::size_t blocks_ = 0;
   Node all_;
   std::array<std::uint64_t, kBlocks> in_{};

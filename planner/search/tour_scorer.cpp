@@ -7,14 +7,35 @@ namespace ivo::planner {
 void TourScorer::start(Tour& tour, double max_unseen_mass) noexcept {
   tour_ = &tour;
   max_unseen_mass_ = max_unseen_mass;
-  sightings_.clear(world_.cells.count());
   expected_.clear();
-  phase_ = Phase::kReplay;
-  begin_agent(0);
+  phase_ = Phase::kClear;
+  row_ = 0;
 }
 
 int TourScorer::advance(int rows) noexcept {
-  return phase_ == Phase::kReplay ? replay(rows) : phase_ == Phase::kSum ? sum(rows) : 0;
+  switch (phase_) {
+    case Phase::kClear:
+      return clear(rows);
+    case Phase::kReplay:
+      return replay(rows);
+    case Phase::kSum:
+      return sum(rows);
+    case Phase::kDone:
+      break;
+  }
+  return 0;
+}
+
+int TourScorer::clear(int rows) noexcept {
+  constexpr int kCellsARow = 16;  // so many cost no more than a row of another kind
+  const int count = std::min(rows * kCellsARow, world_.cells.count() - row_);
+  sightings_.clear(row_, count);
+  row_ += count;
+  if (row_ == world_.cells.count()) {
+    phase_ = Phase::kReplay;
+    begin_agent(0);
+  }
+  return count / kCellsARow + 1;
 }
 
 int TourScorer::replay(int rows) noexcept {
@@ -79,8 +100,9 @@ int TourScorer::sum(int rows) noexcept {
 void TourScorer::finish() noexcept {
   Tour& tour = *tour_;
   tour.score = expected_.score(world_.belief, max_unseen_mass_);
-  const Mass cost =
-      world_.belief.has_sub_priors ? expected_.expected_sub_prior_time(world_.belief) : expected_.expected_time();
+  const Mass cost = !world_.belief.has_sub_priors ? expected_.expected_time()
+                    : to_end_                     ? expected_.expected_sub_prior_time_to_end()
+                                                  : expected_.expected_sub_prior_time(world_.belief);
   tour.cost = {cost, cost};
   tour.unseen = expected_.unseen();
   tour.complete = tour.score.complete;

@@ -16,7 +16,11 @@ class TourScorer {
       : world_(world), events_(world.cells, world.graph, world.sight), sightings_(sightings) {}
 
   /// Another mission. Cost: the edges.
-  void open() noexcept { events_.clear(); }
+  /// `to_end`: EST runs to the plan's own end, K = N, as the paper has it.
+  void open(bool to_end) noexcept {
+    to_end_ = to_end;
+    events_.clear();
+  }
 
   /// `tour` lasts until done().
   void start(Tour& tour, double max_unseen_mass) noexcept;
@@ -25,8 +29,9 @@ class TourScorer {
   [[nodiscard]] bool done() const noexcept { return phase_ == Phase::kDone; }
 
  private:
-  enum class Phase : std::uint8_t { kReplay, kSum, kDone };
+  enum class Phase : std::uint8_t { kClear, kReplay, kSum, kDone };
 
+  int clear(int rows) noexcept;
   int replay(int rows) noexcept;
   int sum(int rows) noexcept;
   void begin_agent(int agent) noexcept;
@@ -38,6 +43,7 @@ class TourScorer {
   ExpectedTime expected_;
   Tour* tour_ = nullptr;
   double max_unseen_mass_ = 0.0;
+  bool to_end_ = false;
   Phase phase_ = Phase::kDone;
   int agent_ = 0;
   std::size_t edge_ = 0;

@@ -31,6 +31,7 @@ struct NaiveTour {
   std::vector<std::vector<planner::Edge>> paths;
   std::vector<double> end_s;
   planner::PlanScore score;
+  double cost_s = 0.0;  ///< what the paper minimises: ET, or EST to the plan's own end
 };
 
 /// tau of each agent and edge.
@@ -233,6 +234,7 @@ class NaiveAnt {
     double mass_steps = 0.0;
     double sub_mass = 0.0;
     double sub_mass_steps = 0.0;
+    double sub_mass_all_steps = 0.0;
     for (std::size_t c = 0; c < seen_.size(); ++c) {
       if (!seen_[c]) {
         continue;
@@ -255,6 +257,7 @@ class NaiveAnt {
       mass_steps += world_.belief.mass[c] * terms;
       if (world_.belief.has_sub_priors) {
         sub_mass += world_.belief.sub_mass[credited][c];
+        sub_mass_all_steps += world_.belief.sub_mass[credited][c] * terms;
         sub_mass_steps += world_.belief.sub_mass[credited][c] * std::min<double>(terms, world_.belief.sub_prior_steps);
       }
     }
@@ -267,6 +270,9 @@ class NaiveAnt {
     if (world_.belief.has_sub_priors) {
       score.expected_sub_prior_time_s = sub_mass_steps + std::max(0.0, 1.0 - sub_mass) * world_.belief.sub_prior_steps;
     }
+    tour.cost_s = world_.belief.has_sub_priors
+                      ? sub_mass_all_steps + std::max(0.0, 1.0 - sub_mass) * step_of(score.horizon_s)
+                      : score.expected_time_s;
     for (std::size_t m = 0; m < agents_.size(); ++m) {
       tour.paths.push_back(up_to(m, agents_[m].path, tour.end_s[m]));
     }

@@ -36,14 +36,14 @@ class NaivePlanner {
       std::optional<NaiveTour> best_of_generation;
       for (int ant = 0; ant < colony_.ants; ++ant) {
         const NaiveTour tour = NaiveAnt(world_, tau_, rng_).run();
-        if (!best_of_generation || better(tour.score, best_of_generation->score)) {
+        if (!best_of_generation || better(tour, *best_of_generation)) {
           best_of_generation = tour;
         }
       }
-      if (!best_ || better(best_of_generation->score, best_->score)) {
+      if (!best_ || better(*best_of_generation, *best_)) {
         best_ = best_of_generation;
       }
-      if (generation >= colony_.generations || cost(best_->score) <= 0.0) {
+      if (generation >= colony_.generations || best_->cost_s <= 0.0) {
         return plan_of(*best_);
       }
       update_trails(generation, *best_of_generation);
@@ -51,22 +51,19 @@ class NaivePlanner {
   }
 
  private:
-  [[nodiscard]] double cost(const planner::PlanScore& score) const {
-    return world_.belief.has_sub_priors ? score.expected_sub_prior_time_s : score.expected_time_s;
-  }
-  [[nodiscard]] bool better(const planner::PlanScore& a, const planner::PlanScore& b) const {
-    if (a.complete != b.complete) {
-      return a.complete;
+  [[nodiscard]] static bool better(const NaiveTour& a, const NaiveTour& b) {
+    if (a.score.complete != b.score.complete) {
+      return a.score.complete;
     }
-    return a.complete ? cost(a) < cost(b) : a.unseen_mass < b.unseen_mass;
+    return a.score.complete ? a.cost_s < b.cost_s : a.score.unseen_mass < b.score.unseen_mass;
   }
 
   // --- trails (Eq. 1 and 3, MAX-MIN limits)
 
   void update_trails(int generation, const NaiveTour& best_of_generation) {
-    const double tau_max = 1.0 / (colony_.rho * std::max(cost(best_->score), 1.0));
+    const double tau_max = 1.0 / (colony_.rho * std::max(best_->cost_s, 1.0));
     const NaiveTour& depositor = deposit_rng_.unit() < colony_.iteration_best ? best_of_generation : *best_;
-    const double amount = 1.0 / std::max(cost(depositor.score), 1.0);
+    const double amount = 1.0 / std::max(depositor.cost_s, 1.0);
     for (std::size_t m = 0; m < tau_.size(); ++m) {
       const int nodes = world_.graph.nodes_reached_by(static_cast<int>(m));
       const double s = std::pow(0.05, 1.0 / nodes);

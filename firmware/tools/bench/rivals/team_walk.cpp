@@ -97,7 +97,8 @@ void TeamWalk::jump(int agent) {
   Node goal = -1;
   Edge last = -1;  // an edge beyond the goal, when only that shows anything
   while (!queue.empty() && queue.top().first <= farthest_s) {
-    const auto [here_s, here] = queue.top();
+    const double here_s = queue.top().first;
+    const Node here = queue.top().second;
     queue.pop();
     if (here_s > distance_s[index(here)]) {
       continue;

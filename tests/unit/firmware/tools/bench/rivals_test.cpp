@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <memory>
-#include <set>
 
 #include "firmware/tools/bench/rivals/free_ways.hpp"
 #include "firmware/tools/bench/rivals/greedy_planner.hpp"
@@ -12,11 +11,11 @@
 #include "firmware/tools/bench/rivals/receding_horizon_planner.hpp"
 #include "firmware/tools/bench/rivals/rival_score.hpp"
 #include "firmware/tools/bench/rivals/rollout_tree_planner.hpp"
+#include "planner/world/visibility.hpp"
 #include "tests/support/m1.hpp"
 #include "tests/support/naive_evaluator.hpp"
 #include "tests/support/random_search.hpp"
 #include "tests/support/shared_planner.hpp"
-#include "tests/support/swath_cells.hpp"
 
 namespace ivo::firmware::rivals {
 namespace {
@@ -126,40 +125,55 @@ TEST(Rivals, RepeatThemselvesForTheSameSeedAndTries) {
   }
 }
 
-// Of agent 0: what it sees along the edge and not yet from where the edge begins.
-std::set<planner::Cell> cells_along(const planner::Planner& planner, planner::Edge e) {
-  planner::Node tail = 0;
-  while (planner.graph().end_edge(tail) <= e) {
-    ++tail;
+// Mass in sight along the edge and not from its tail, point by point.
+double newly_seen(const planner::Planner& planner, planner::Node tail, planner::Edge e, double radius_m) {
+  const planner::Cells& cells = planner.cells();
+  const Point a = planner.graph().position(tail);
+  const Point b = planner.graph().position(planner.graph().head(e));
+  const int points = planner::sight_points(planner.graph().length_m(e), cells.cell_m());
+  std::vector<bool> seen(static_cast<std::size_t>(cells.count()), false);
+  double mass = 0.0;
+  for (int k = 0; k <= points; ++k) {
+    planner::for_each_seen(cells, planner::sight_point(a, b, k, points), radius_m, [&](planner::Cell c) {
+      const auto i = static_cast<std::size_t>(c);
+      mass += k > 0 && !seen[i] ? planner::to_double(planner.belief().mass[i]) : 0.0;
+      seen[i] = true;
+    });
   }
-  std::set<planner::Cell> cells;
-  test::for_each_cell(planner.cells(), planner.sight(), planner.sight().along_edge(0, e),
-                      [&](planner::Cell c, const planner::Swath&) { cells.insert(c); });
-  test::for_each_cell(planner.cells(), planner.sight(), planner.sight().from_node(0, tail),
-                      [&](planner::Cell c, const planner::Swath&) { cells.erase(c); });
-  return cells;
+  return mass;
+}
+
+CellSet seen_from(const RivalProblem& problem, planner::Node n) {
+  CellSet seen(problem.coverage.words(), 0);
+  for (const CoverageRow& row : problem.coverage.around(0, n)) {
+    seen[row.word] |= row.bits;
+  }
+  return seen;
 }
 
 TEST(Rivals, CountACellOnceWhateverRowsShowIt) {
   std::mt19937_64 random(3);
-  int searches = 0;
-  for (int draw = 0; searches < 5; ++draw) {
+  int edges = 0;
+  for (int draw = 0; edges < 300; ++draw) {
     ASSERT_LT(draw, 100);
     test::RandomSearch search(random);
     const std::unique_ptr<Scene> scene = prepared(search.problem());
     if (scene == nullptr) {
       continue;
     }
-    ++searches;
     const planner::Planner& planner = test::shared_planner();
-    for (planner::Edge e = 0; e < planner.graph().edges(); e += 7) {
-      double sum = 0.0;
-      for (const planner::Cell c : cells_along(planner, e)) {
-        sum += planner.belief().mass[static_cast<std::size_t>(c)];
+    const planner::Graph& graph = planner.graph();
+    for (planner::Node n = 0; n < graph.nodes(); ++n) {
+      for (planner::Edge e = graph.first_edge(n); e < graph.end_edge(n); e += 7) {
+        if (!planner::in(graph.open_to(e), 0)) {
+          continue;
+        }
+        ++edges;
+        const auto rows = scene->coverage.along(0, e);
+        ASSERT_NEAR(scene->coverage.new_mass(rows, seen_from(scene->problem, n)),
+                    newly_seen(planner, n, e, search.problem().agents[0].sight_radius_m), 1e-9);
+        ASSERT_EQ(scene->coverage.new_mass(rows, CellSet(scene->coverage.words(), ~std::uint64_t{0})), 0.0);
       }
-      EXPECT_NEAR(scene->coverage.new_mass(scene->coverage.along(0, e), CellSet(scene->coverage.words(), 0)), sum,
-                  1e-12);
-      EXPECT_EQ(scene->coverage.new_mass(scene->coverage.along(0, e), CellSet(scene->coverage.words(), ~0ULL)), 0.0);
     }
   }
 }

@@ -1,0 +1,73 @@
+// One search on given tables: the paper's colony alone, or a short one and then the improvement of its best plan. Several
+// may work on the same tables, each with a seed of its own, and learn of each other's best plans.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "planner/search/colony.hpp"
+#include "planner/search/improver.hpp"
+#include "planner/search/plan.hpp"
+
+namespace ivo::planner {
+
+/// Work is counted in units: a table row, a candidate edge, a trail. A unit costs a few nanoseconds.
+struct Budget {
+  int units = 0;
+};
+
+struct Progress {
+  int generation = 0;
+  int generations = 0;
+  bool done = false;
+  bool has_plan = false;
+  PlanScore best;  ///< when has_plan
+};
+
+/// What a slice worked on. A slice is of one kind: it ends where another begins.
+enum class SliceKind : std::uint8_t { kNone, kAnts, kScore, kTrails, kDrafts, kChanges, kPathScore };
+
+class Search {
+ public:
+  explicit Search(const World& world) noexcept
+      : world_(world), colony_(world, sightings_), improver_(world, sightings_) {}
+  Search(const Search&) = delete;
+  Search& operator=(const Search&) = delete;
+
+  /// Another mission, whose tables are ready. Cost: cells and edges.
+  void start(const ColonyParameters& parameters) noexcept;
+  void stop() noexcept { ready_ = false; }
+
+  /// Searches on for at most about `budget.units`, of one kind; an indivisible rest may go a little over. Nothing when
+  /// done.
+  void step(Budget budget) noexcept;
+  [[nodiscard]] SliceKind last_slice() const noexcept { return last_slice_; }
+  [[nodiscard]] Progress progress() const noexcept;
+
+  /// The best plan so far: complete plans by cost (EST with sub-priors, else ET in the paper's profile and ET_c in the
+  /// fast one), before incomplete ones by unseen mass. Cost: the copy of its waypoints.
+  void best_plan(Plan& plan) const noexcept;
+
+  /// Takes over another search's best when it is better. Cost: the copy.
+  void learn_from(const Search& other) noexcept;
+
+ private:
+  [[nodiscard]] bool improves() const noexcept { return parameters_.profile == Profile::kFast && improvable_; }
+  [[nodiscard]] bool improved() const noexcept { return improves() && improver_.has_best(); }
+  [[nodiscard]] SliceKind kind() const noexcept;
+  void cut(AgentPath& path, double end_s, double speed_mps) const noexcept;
+
+  const World& world_;
+  FirstSightings sightings_;  // scratch of whoever scores
+  Colony colony_;
+  Improver improver_;
+  ColonyParameters parameters_;
+  bool improvable_ = false;
+  bool improving_ = false;
+  bool ready_ = false;
+  SliceKind last_slice_ = SliceKind::kNone;
+
+  friend class Planner;  // lists the sizes of its parts
+};
+
+}  // namespace ivo::planner
