@@ -12,7 +12,6 @@
 #include "tests/support/naive_evaluator.hpp"
 #include "tests/support/random_search.hpp"
 #include "tests/support/shared_planner.hpp"
-#include "tests/support/test_world.hpp"
 
 namespace ivo::planner {
 namespace {
@@ -23,11 +22,11 @@ constexpr double kAgreement = kFixedPoint ? 1e-3 : 1e-9;
 class AntTest : public testing::Test {
  protected:
   struct Parts {
-    test::TestWorld world{test::shared_planner()};
+    const World& world = test::shared_planner().world();
     Trails trails;
-    Ant ant{world.world, trails};
+    Ant ant{world, trails};
     FirstSightings sightings;
-    TourScorer scorer{world.world, sightings};
+    TourScorer scorer{world, sightings};
     Tour tour;
   };
   static Parts& parts() {
@@ -36,16 +35,15 @@ class AntTest : public testing::Test {
   }
 
   // False when the search is refused.
-  static bool open(const SearchProblem& problem) {
+  static bool open(const SearchProblem& problem, bool to_end = false) {
     if (test::shared_planner().prepare(problem)) {
       return false;
     }
     Parts& p = parts();
-    p.world.set(problem);
-    p.trails.start(p.world.world.graph, problem.colony.rho,
+    p.trails.start(p.world.graph, problem.colony.rho,
                    problem.colony.heuristic == Heuristic::kTsp ? problem.colony.beta : 0);
     p.ant.open();
-    p.scorer.open();
+    p.scorer.open(to_end);
     return true;
   }
   static const Tour& walk(const SearchProblem& problem, Rng& rng, int rows = 256) {
@@ -96,6 +94,7 @@ TEST_F(AntTest, KnowsBoundsOfItsCostOnRandomSearches) {
     test::RandomSearch search(random);
     SearchProblem& problem = search.problem();
     problem.colony.ant.shortest_first = draw % 3 == 0 ? 0.0 : problem.colony.ant.shortest_first;
+    problem.colony.ant.completes = draw % 4 < 2;
     if (draw % 2 == 0) {
       problem.colony.beta = 0;  // wild tours: agents cross and follow each other
     }
@@ -140,6 +139,7 @@ TEST_F(AntTest, KnowsBoundsOfItsCostWhereAgentsWalkTogether) {
     problem.colony.beta = static_cast<int>(random() % 4);
     problem.colony.ant.shortest_first = i % 4 == 0 ? 0.0 : 0.5;
     problem.colony.ant.max_unseen_mass = i % 2 == 0 ? 0.014 : 0.2;
+    problem.colony.ant.completes = i % 3 == 0;
     problem.agents.resize(static_cast<std::size_t>(std::min(2 + i % 3, limits::kAgents)));
     for (SearchAgent& agent : problem.agents) {
       agent.body.start = {7.9, 6.1};
@@ -180,6 +180,7 @@ TEST_F(AntTest, WalksTheSameHoweverTheWorkIsSliced) {
     ASSERT_LT(draw, 300);
     test::RandomSearch search(random);
     search.problem().colony.heuristic = draw % 2 == 0 ? Heuristic::kTsp : Heuristic::kMts;
+    search.problem().colony.ant.completes = draw % 3 == 0;
     if (!open(search.problem())) {
       continue;
     }
@@ -225,7 +226,9 @@ TEST_F(AntTest, IsScoredAsTheNaiveEvaluatorScoresIt) {
     ASSERT_LT(draw, 600);
     test::RandomSearch search(random);
     const SearchProblem& problem = search.problem();
-    if (!open(problem)) {
+    const bool to_end = draw % 2 == 0;
+    search.problem().colony.ant.completes = draw % 3 == 0;
+    if (!open(problem, to_end)) {
       continue;
     }
     ++searches;
@@ -259,8 +262,14 @@ TEST_F(AntTest, IsScoredAsTheNaiveEvaluatorScoresIt) {
       ASSERT_NEAR(tour.score.unseen_mass, expected.unseen_mass, 1e-9);
       ASSERT_NEAR(tour.score.horizon_s, expected.horizon_s, kAgreement);
       ASSERT_EQ(tour.cost.low, tour.cost.high);
-      ASSERT_NEAR(to_double(tour.cost.low),
-                  belief.has_sub_priors ? expected.expected_sub_prior_time_s : expected.expected_time_s, kAgreement);
+      if (!belief.has_sub_priors) {
+        ASSERT_NEAR(to_double(tour.cost.low), expected.expected_time_s, kAgreement);
+      } else if (to_end) {
+        ASSERT_NEAR(to_double(tour.cost.low), evaluator.expected_sub_prior_time_s(step_of(tour.score.horizon_s)),
+                    kAgreement);
+      } else {
+        ASSERT_NEAR(to_double(tour.cost.low), expected.expected_sub_prior_time_s, kAgreement);
+      }
       const std::vector<double> last_new_s = evaluator.last_new_s();
       for (std::size_t m = 0; m < last_new_s.size(); ++m) {
         ASSERT_NEAR(to_double(tour.end_s[m]), last_new_s[m], kAgreement);

@@ -278,6 +278,7 @@ TEST_F(ProblemCheck, APriorOnOneCellIsFoundAndTimesAreThoseOfThatCell) {
   std::vector<std::uint16_t> values(32 * 16, 0);
   values[8 * 32 + 28] = 1;
   problem_.prior = GreyView{values, 32, 16, 0.5};
+  problem_.colony.generations = 60;
   const Plan& p = plan();
   EXPECT_EQ(planner_.belief().mass_cell_count, 1);
   EXPECT_TRUE(p.score.complete);

@@ -12,32 +12,26 @@
 
 #include "tests/support/m1.hpp"
 #include "tests/support/shared_planner.hpp"
-#include "tests/support/test_world.hpp"
 
 namespace ivo::planner {
 namespace {
 
 class SectorHeuristicTest : public testing::Test {
  protected:
-  struct Parts {
-    test::TestWorld world{test::shared_planner()};
-    SectorHeuristic sectors{world.world};
-  };
-  static Parts& parts() {
-    static const auto parts = std::make_unique<Parts>();
-    return *parts;
+  static SectorHeuristic& sectors() {
+    static const auto sectors = std::make_unique<SectorHeuristic>(world());
+    return *sectors;
   }
 
   SectorHeuristicTest() { m1_.problem().graph.spacing_m = 5.0; }
 
   void open() {
     ASSERT_FALSE(test::shared_planner().prepare(m1_.problem()));
-    parts().world.set(m1_.problem());
-    parts().sectors.open();
-    parts().sectors.start();
+    sectors().open();
+    sectors().start();
     seen_.assign(index(world().cells.count()), false);
   }
-  static const World& world() { return parts().world.world; }
+  static const World& world() { return test::shared_planner().world(); }
 
   void take_around(Point p, double radius_m) {
     const Cells& cells = world().cells;
@@ -46,20 +40,19 @@ class SectorHeuristicTest : public testing::Test {
       if (!seen_[index(c)] && world().belief.mass[index(c)] > Mass{} &&
           std::hypot(centre.x_m - p.x_m, centre.y_m - p.y_m) < radius_m) {
         seen_[index(c)] = true;
-        parts().sectors.take(c);
+        sectors().take(c);
       }
     }
   }
 
   static std::vector<double> weights(int agent, Node here, int beta, int tiles = std::numeric_limits<int>::max() / 2) {
-    SectorHeuristic& sectors = parts().sectors;
-    sectors.begin(agent, here);
-    while (!sectors.done()) {
-      EXPECT_GT(sectors.advance(tiles), 0);
+    sectors().begin(agent, here);
+    while (!sectors().done()) {
+      EXPECT_GT(sectors().advance(tiles), 0);
     }
     std::vector<double> weights;
     for (Edge e = world().graph.first_edge(here); e < world().graph.end_edge(here); ++e) {
-      weights.push_back(static_cast<double>(sectors.visibility(e, beta)) / static_cast<double>(visibility_from(1.0)));
+      weights.push_back(static_cast<double>(sectors().visibility(e, beta)) / static_cast<double>(visibility_from(1.0)));
     }
     return weights;
   }
@@ -178,7 +171,7 @@ TEST_F(SectorHeuristicTest, ForgetsWithANewAntWhatTheLastHasSeen) {
   const std::vector<double> whole = weights(0, 9, 1);
   take_around({20.0, 20.0}, 12.0);
   EXPECT_NE(weights(0, 9, 1), whole);
-  parts().sectors.start();
+  sectors().start();
   EXPECT_EQ(weights(0, 9, 1), whole);
 }
 
