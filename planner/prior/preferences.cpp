@@ -110,13 +110,16 @@ Refusal divide(const Cells& cells, const SightTable& sight, const PreferredAreas
     const double part = to_double(belief.mass[index(c)]) / std::popcount(takers);
     for (int m = 0; m < belief.agents; ++m) {
       const bool counts = in(takers, m) && in(sight.observable_by(c), m);
-      belief.sub_mass[index(m)][index(c)] = counts ? mass_from(part) : Mass{};
+      belief.sub_mass[index(m)][index(c)] =
+          Mass(counts ? std::popcount(takers) : 0);  // how many share it, until scaled
       sums[index(m)] += counts ? part : 0.0;
     }
   }
   for (int m = 0; m < belief.agents; ++m) {
-    fill_sub_prior(m, sums[index(m)], belief, left_without,
-                   [&](Cell c) { return to_double(belief.sub_mass[index(m)][index(c)]); });
+    fill_sub_prior(m, sums[index(m)], belief, left_without, [&](Cell c) {
+      const double takers = to_double(belief.sub_mass[index(m)][index(c)]);
+      return takers > 0.0 ? to_double(belief.mass[index(c)]) / takers : 0.0;
+    });
   }
   return {};
 }

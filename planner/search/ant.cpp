@@ -71,7 +71,9 @@ int Ant::choose_agent(Rng& rng) noexcept {
   }
   if (left.empty() && parameters_.completes && !second_wind_ && !complete()) {
     second_wind_ = true;
-    retired_.fill(false);
+    for (int m = 0; m < world_.graph.agents(); ++m) {
+      retired_[index(m)] = paths_[index(m)].full();
+    }
     return 1;
   }
   if (complete() || left.empty()) {

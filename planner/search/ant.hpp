@@ -43,7 +43,7 @@ class Ant {
   // When done:
   [[nodiscard]] bool complete() const noexcept;
   [[nodiscard]] Mass unseen() const noexcept { return unseen_; }
-  /// Of Eq. 8; the exact cost lies inside.
+  /// Of Eq. 8, of a complete tour; the exact cost lies inside.
   [[nodiscard]] CostInterval cost() const noexcept;
 
  private:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "config/base/contract.hpp"
 #include "planner/search/work.hpp"
 #include "planner/world/visibility.hpp"
 
@@ -83,7 +84,8 @@ void EdgeEvents::make_room(int size) noexcept {
     oldest_ = (oldest_ + 1) % kBlocks;
     --block_count_;
   };
-  if (head_ + size > limits::kSightEvents) {
+  IVO_CONTRACT(size <= kept_);
+  if (head_ + size > kept_) {
     while (block_count_ > 0 && blocks_[index(oldest_)].first >= head_) {
       evict();
     }

@@ -30,8 +30,9 @@ class SightEvent {
 
 class EdgeEvents {
  public:
-  EdgeEvents(const Cells& cells, const Graph& graph, const SightTable& sight) noexcept
-      : cells_(cells), graph_(graph), sight_(sight) {}
+  /// `kept` events at most are kept ready; the cells of each swath of an edge together must fit.
+  EdgeEvents(const Cells& cells, const Graph& graph, const SightTable& sight, int kept = limits::kSightEvents) noexcept
+      : cells_(cells), graph_(graph), sight_(sight), kept_(kept) {}
 
   /// Forgets all: another mission. Cost: the edges.
   void clear() noexcept;
@@ -70,6 +71,7 @@ class EdgeEvents {
   const Cells& cells_;
   const Graph& graph_;
   const SightTable& sight_;
+  const int kept_;
   std::array<Slot, static_cast<std::size_t>(limits::kAgents) * limits::kEdges> slots_{};
   std::array<SightEvent, limits::kSightEvents> pool_{};
   std::array<Block, kBlocks> blocks_{};
