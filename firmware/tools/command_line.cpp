@@ -13,6 +13,7 @@
 
 #include "firmware/files/number_text.hpp"
 #include "firmware/tools/bench/bench_command.hpp"
+#include "firmware/tools/colonies.hpp"
 #include "firmware/tools/exit_status.hpp"
 #include "firmware/tools/plan_options.hpp"
 #include "firmware/tools/run_options.hpp"
@@ -89,7 +90,7 @@ CLI::App* add_plan(CLI::App& app, PlanOptions& options, std::optional<int>& thre
   add_number(*command, "--iterations", options.iterations, 1, 1'000'000'000, "Generations, instead of the mission's");
   add_number(*command, "--seed", options.seed, std::uint64_t{0},
              std::uint64_t{std::numeric_limits<std::int64_t>::max()}, "Instead of the mission's");
-  add_number(*command, "--threads", threads, 1, 64, "Colonies that search side by side (default 1)");
+  add_number(*command, "--threads", threads, 1, Colonies::kMost, "Colonies that search side by side (default 1)");
   command->add_option("--out", options.out, "Folder for plan and picture (default out/MISSION)")->check(not_empty);
   return command;
 }

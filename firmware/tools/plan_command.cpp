@@ -79,6 +79,7 @@ int plan(const PlanOptions& options) {
   if (const Result<void> prepared = prepare(planner, inputs); !prepared) {
     return refuse(prepared.error());
   }
+  colonies.value().start();
   const double prepare_s = seconds_since(begin);
   const std::string out =
       options.out.empty() ? "out/" + std::filesystem::path(options.mission).stem().string() : options.out;

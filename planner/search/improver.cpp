@@ -58,6 +58,7 @@ bool Improver::open(const ImproverParameters& parameters) noexcept {
   agents_ = static_cast<int>(bodies.size());
   has_best_ = false;
   learned_ = false;
+  recalls_learned_ = false;
   proposals_ = 0;
   rng_ = Rng(parameters.seed);
   if (!pool_.open()) {
@@ -147,6 +148,13 @@ void Improver::draft_lanes() noexcept {
 }
 
 void Improver::recall() noexcept {
+  recalls_learned_ = learned_;
+  if (learned_) {
+    learned_ = false;
+    for (int m = 0; m < agents_; ++m) {
+      memory_[index(m)].assign(best_[index(m)]);
+    }
+  }
   for (int m = 0; m < agents_; ++m) {
     draft_[index(m)].assign(memory_[index(m)]);
   }
@@ -548,8 +556,8 @@ int Improver::settle() noexcept {
   if (phase_ == Phase::kJudgeFirst) {
     judged_ = judgement;
     judge_.accept();
-    if (drafts_ > kLanePlans && learned_) {
-      learned_ = false;
+    if (recalls_learned_) {
+      recalls_learned_ = false;
       remembered_cost_ = judged_.cost;
       remembered_complete_ = judged_.complete;
     }
@@ -692,13 +700,9 @@ void Improver::learn_from(const Improver& other) noexcept {
   has_best_ = true;
   best_score_ = other.best_score_;
   learned_ = true;
-  remembered_ = false;
-  remembered_complete_ = true;
-  remembered_cost_ = MassTime{};  // nothing of this round is remembered instead
   for (int m = 0; m < agents_; ++m) {
     best_[index(m)].assign(other.best_[index(m)]);
     best_end_s_[index(m)] = other.best_end_s_[index(m)];
-    memory_[index(m)].assign(other.best_[index(m)]);
   }
 }
 
