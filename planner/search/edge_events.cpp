@@ -126,14 +126,18 @@ int EdgeEvents::first_point(int column, int row, int from, int to, int& work) co
   const double half2 = radius_m_ * radius_m_ * length2 - across * across;
   const double share = length2 > 0.0 ? (along - std::sqrt(std::max(0.0, half2))) / length2 : 0.0;
   int k = std::clamp(static_cast<int>(share * points_) - 1, from, to);
-  work += 2;
   for (; k < to; ++k) {
     const Point p = sight_point(tail_, end_, k, points_);
-    work += open_ ? 2
-                  : 2 + work::ray(std::abs(column - static_cast<int>(p.x_m / cells_.cell_m())),
-                                  std::abs(row - static_cast<int>(p.y_m / cells_.cell_m())));
-    if (within_radius(cells_, p, column, row, radius_m_) &&
-        (open_ || line_of_sight(cells_, p, cells_.at(column, row)))) {
+    work += 2;
+    if (!within_radius(cells_, p, column, row, radius_m_)) {
+      continue;
+    }
+    if (open_) {
+      break;
+    }
+    work += work::ray(std::abs(column - static_cast<int>(p.x_m / cells_.cell_m())),
+                      std::abs(row - static_cast<int>(p.y_m / cells_.cell_m())));
+    if (line_of_sight(cells_, p, cells_.at(column, row))) {
       break;
     }
   }

@@ -110,7 +110,7 @@ int PathScorer::advance(int rows) noexcept {
     }
   }
   if (phase_ == Phase::kSum && work <= rows) {
-    const int count = std::min((rows - work) / 2 + 1, belief_->mass_cell_count - cell_);
+    const int count = std::min((rows - work) / 4 + 1, belief_->mass_cell_count - cell_);
     expected_.add(*belief_, sightings_, cell_, count);
     cell_ += count;
     work += work::cells_summed(count, belief_->has_sub_priors);

@@ -91,7 +91,7 @@ void TourScorer::begin_agent(int agent) noexcept {
 }
 
 int TourScorer::sum(int rows) noexcept {
-  const int count = std::min(rows / 2 + 1, world_.belief.mass_cell_count - row_);
+  const int count = std::min(rows / 4 + 1, world_.belief.mass_cell_count - row_);
   expected_.add(world_.belief, sightings_, row_, count);
   row_ += count;
   if (row_ == world_.belief.mass_cell_count) {
