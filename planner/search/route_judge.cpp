@@ -148,7 +148,7 @@ RouteJudge::Shown RouteJudge::look(int agent, const Part& part) noexcept {
     return {belief_->alike * seen_.look_and_count(swath, part.words.data()), Mass{}, work::rows_judged(part.rows, 0)};
   }
   Shown shown;
-  const int planes = planes_.count() + (sub_priors ? sub_planes_[index(agent)].count() : 0);
+  const int planes = planes_.count() + (sub_priors ? 3 * sub_planes_[index(agent)].count() / 2 : 0);
   int read = 0;
   seen_.look(swath, part.words.data(), [&](int row, std::uint64_t fresh) {
     read += planes;

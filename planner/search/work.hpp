@@ -36,7 +36,7 @@ inline constexpr int kPart = 10;
 inline constexpr int kSweptRow = 7;
 inline constexpr int kJudgement = 20;
 [[nodiscard]] constexpr int rows_judged(int rows, int planes_read) noexcept {
-  return rows * 4 / 5 + planes_read * 3 / 2;
+  return rows * 4 / 5 + planes_read * 8 / 7;
 }
 
 // Discs and rays of exact looks.
