@@ -118,11 +118,12 @@ int Ant::choose_node(Rng& rng) noexcept {
   const Node here = at_[index(agent_)];
   const Edge first = graph.first_edge(here);
   const Edge end = graph.end_edge(here);
+  const int agent = agent_;
+  const bool sectors = heuristic_ == Heuristic::kMts;
   Weight sum{};
   for (Edge e = first; e < end; ++e) {
-    if (in(graph.open_to(e), agent_) && !visited(graph.head(e))) {
-      sum += heuristic_ == Heuristic::kMts ? trails_.attraction(agent_, e, sectors_.visibility(e, beta_))
-                                           : trails_.attraction(agent_, e);
+    if (!visited(graph.head(e)) && in(graph.open_to(e), agent)) {
+      sum += sectors ? trails_.attraction(agent, e, sectors_.visibility(e, beta_)) : trails_.attraction(agent, e);
     }
     weights_[index(e - first)] = sum;
   }

@@ -25,6 +25,9 @@ void Colony::start(const ColonyParameters& parameters) noexcept {
   trails_.start(world_.graph, parameters.rho, parameters.heuristic == Heuristic::kTsp ? parameters.beta : 0);
   ant_.open();
   scorer_.open(parameters.profile == Profile::kPaper);
+  if (parameters.profile == Profile::kPaper) {
+    scorer_.warm();
+  }
   rng_ = Rng(parameters.seed);
   deposit_rng_ = Rng(~parameters.seed);
   generation_ = 0;

@@ -44,19 +44,24 @@ int EdgeEvents::prepare(int agent, Node tail, Edge e, int rows) noexcept {
   return work;
 }
 
-void EdgeEvents::begin(int agent, Node tail, Edge e) noexcept {
-  const SightView view = sight_.along_edge(agent, e);
+// No edge has more events than its swaths have cells.
+int EdgeEvents::most(int agent, Edge e) const noexcept {
   int most = 0;
-  for (const Swath& swath : view.swaths) {
+  for (const Swath& swath : sight_.along_edge(agent, e).swaths) {
     const std::uint64_t* const words = sight_.words(swath);
     for (int i = 0; i < swath.rows; ++i) {
       most += std::popcount(words[i]);
     }
   }
+  return most;
+}
+
+void EdgeEvents::begin(int agent, Node tail, Edge e) noexcept {
+  const SightView view = sight_.along_edge(agent, e);
   if (making_ != kNone) {
     taken_.open(cells_.columns(), cells_.rows());  // another edge was left half made
   }
-  make_room(most);
+  make_room(most(agent, e));
   making_ = slot(agent, e);
   made_first_ = head_;
   made_ = 0;

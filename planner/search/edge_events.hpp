@@ -40,6 +40,11 @@ class EdgeEvents {
   /// Works towards having the events of `e`, the edge from `tail`, for `agent`: up to about `rows` rows of its swaths.
   /// Returns the work done, in rows; 0 when they were ready.
   int prepare(int agent, Node tail, Edge e, int rows) noexcept;
+  /// True when the edge can be made ready and no other has to make room for it.
+  [[nodiscard]] bool has_room_for(int agent, Edge e) const noexcept {
+    return head_ + most(agent, e) <= limits::kSightEvents && block_count_ < kBlocks &&
+           (block_count_ == 0 || blocks_[index(oldest_)].first < head_);
+  }
   [[nodiscard]] bool ready(int agent, Edge e) const noexcept { return slots_[slot(agent, e)].count >= 0; }
   /// Cells seen along a ready edge and not from its tail: each once, at the first point that sees it.
   [[nodiscard]] std::span<const SightEvent> along(int agent, Edge e) const noexcept {
@@ -62,6 +67,7 @@ class EdgeEvents {
   [[nodiscard]] std::size_t slot(int agent, Edge e) const noexcept {
     return index(sight_.layer(agent)) * limits::kEdges + index(e);
   }
+  [[nodiscard]] int most(int agent, Edge e) const noexcept;
   void begin(int agent, Node tail, Edge e) noexcept;
   void make_room(int size) noexcept;
   int add_row(const Swath& swath, int row) noexcept;

@@ -135,7 +135,7 @@ class Improver {
   Lanes lanes_;
   int drafts_ = 0;  // judged
   bool draft_broken_ = false;
-  bool learned_ = false;  // the best is another's: the next round begins with it
+  bool learned_ = false;          // the best is another's: the next round begins with it
   bool recalls_learned_ = false;  // its cost here is not known yet
   std::array<Waypoints, limits::kAgents> draft_{};
   int restored_agent_ = 0;

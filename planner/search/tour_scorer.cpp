@@ -28,6 +28,25 @@ int TourScorer::advance(int rows) noexcept {
   return 0;
 }
 
+void TourScorer::warm() noexcept {
+  const Graph& graph = world_.graph;
+  for (int m = 0; m < graph.agents(); ++m) {
+    for (Node n = 0; n < graph.nodes(); ++n) {
+      for (Edge e = graph.first_edge(n); e < graph.end_edge(n); ++e) {
+        if (!in(graph.open_to(e), m) || events_.ready(m, e)) {
+          continue;
+        }
+        if (!events_.has_room_for(m, e)) {
+          return;
+        }
+        while (!events_.ready(m, e)) {
+          (void)events_.prepare(m, n, e, 1 << 16);
+        }
+      }
+    }
+  }
+}
+
 int TourScorer::clear(int rows) noexcept {
   using work::kCellsForgotten;
   const int count = std::min(rows * kCellsForgotten, world_.cells.count() - row_);
