@@ -18,8 +18,8 @@ double share(double of, double part, double whole) noexcept { return of * (part 
 
 }  // namespace
 
-void RouteJudge::open(const Cells& cells, const Belief& belief,
-                      const std::array<SecondsAMetre, limits::kAgents>& paces, double max_unseen_mass) noexcept {
+void RouteJudge::open(const Cells& cells, const Belief& belief, const std::array<SecondsAMetre, limits::kAgents>& paces,
+                      double max_unseen_mass) noexcept {
   belief_ = &belief;
   agents_ = belief.agents;
   paces_ = paces;
@@ -46,7 +46,7 @@ void RouteJudge::start(const Route& route, Seconds changed_s) noexcept {
     state_ = kept_[index(from)];
     seen_.copy(kept_seen_[index(from)]);
   } else {
-    state_ = State{.time_s = {}, .unseen = Mass(1), .unfound = Mass(1), .cost = {}, .cursors = {}};
+    state_ = State{.time_s = {}, .unseen = belief_->whole, .unfound = Mass(1), .cost = {}, .cursors = {}};
     seen_.copy(belief_->without_mass);
     for (int m = 0; m < agents_; ++m) {
       const Shown shown = look(m, pool_.part(pool_[starts_[index(m)]].first_part));
@@ -169,8 +169,7 @@ void RouteJudge::end_complete(Seconds begin_s, Seconds length_s, const Shown& sh
   judgement_.end_s = begin_s + until_s;
   if (belief_->has_sub_priors) {
     const Mass found = shown.mass > Mass{} ? share(shown.sub_mass, needed, shown.mass) : Mass{};
-    judgement_.cost =
-        state_.cost + found * std::min(middle_s, horizon_s_) + (state_.unfound - found) * horizon_s_;
+    judgement_.cost = state_.cost + found * std::min(middle_s, horizon_s_) + (state_.unfound - found) * horizon_s_;
   } else {
     judgement_.cost = state_.cost + needed * middle_s + max_unseen_ * judgement_.end_s;
   }
