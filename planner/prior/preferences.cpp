@@ -64,6 +64,7 @@ Refusal normalise(const Cells& cells, const SightTable& sight, int agents, std::
   belief.unobservable_share = std::max(0.0, 1.0 - observable / whole);
   belief.without_mass.open(cells.columns(), cells.rows());
   belief.alike = Mass{};
+  belief.whole = Mass{};
   for (Cell c = 0; c < cells.count(); ++c) {
     Mass& mass = belief.mass[index(c)];
     mass = sight.observable_by(c) != 0 ? mass_from(raw[index(c)] / observable) : Mass{};
@@ -71,6 +72,7 @@ Refusal normalise(const Cells& cells, const SightTable& sight, int agents, std::
       belief.without_mass.set(cells.column(c), cells.row(c));
       continue;
     }
+    belief.whole += mass;
     belief.alike = belief.mass_cell_count == 0 || belief.alike == mass ? mass : Mass{};
     belief.mass_cells[index(belief.mass_cell_count++)] = c;
   }

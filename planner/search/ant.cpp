@@ -17,7 +17,7 @@ void Ant::start(const AntParameters& parameters, Heuristic heuristic, int beta) 
     ant_number_ = 1;
   }
   seen_.copy(world_.belief.without_mass);
-  unseen_ = Mass(1);
+  unseen_ = world_.belief.whole;
   low_steps_ = high_steps_ = Mass{};
   last_new_s_ = Seconds{};
   second_wind_ = false;

@@ -46,6 +46,7 @@ class ExpectedTime {
     }
   }
 
+  Mass whole_ = Mass(1);
   Mass seen_mass_{};
   MassTime mass_seconds_{};    // sum of p t_c
   Mass mass_steps_{};          // sum of p (max(k, 1) - 1)

@@ -48,7 +48,7 @@ int RouteJudge::start(const Route& route, Seconds changed_s) noexcept {
     state_ = kept_[index(from)];
     seen_.copy(kept_seen_[index(from)]);
   } else {
-    state_ = State{.time_s = {}, .unseen = Mass(1), .unfound = Mass(1), .cost = {}, .cursors = {}};
+    state_ = State{.time_s = {}, .unseen = belief_->whole, .unfound = Mass(1), .cost = {}, .cursors = {}};
     seen_.copy(belief_->without_mass);
     for (int m = 0; m < agents_; ++m) {
       const Shown shown = look(m, pool_.part(pool_[starts_[index(m)]].first_part));

@@ -40,6 +40,18 @@ TEST(Colony, FindsOnM1WithAUniformPriorWhatThePrototypeFound) {
   EXPECT_LT(sum_s / 3, 108.0);
 }
 
+TEST(Colony, CompletesAPlanThatMayLeaveNothingUnseen) {
+  test::M1 m1(2);
+  m1.problem().graph.spacing_m = 5.0;
+  m1.problem().colony.ant.max_unseen_mass = 0.0;
+  for (SearchAgent& agent : m1.problem().agents) {
+    agent.sight_radius_m = 5.0;  // a square and more
+  }
+  const PlanScore score = plan_for(m1.problem()).score;
+  EXPECT_TRUE(score.complete);
+  EXPECT_EQ(score.unseen_mass, 0.0);
+}
+
 TEST(Colony, FindsBetterPlansWithMoreGenerations) {
   test::M1 few(1);
   few.problem().cell_m = 0.5;

@@ -3,14 +3,14 @@
 #include <cmath>
 #include <random>
 
+#include "tests/support/agreement.hpp"
 #include "tests/support/random_search.hpp"
 #include "tests/support/shared_planner.hpp"
 
 namespace ivo::planner {
 namespace {
 
-// In fixed point a path's length is the sum of times rounded to 2^-16 s.
-constexpr double kAgreement = kFixedPoint ? 1e-2 : 1e-9;
+using test::kAgreement;
 
 double distance_m(Point a, Point b) { return std::hypot(b.x_m - a.x_m, b.y_m - a.y_m); }
 
