@@ -31,6 +31,7 @@ void Colony::start(const ColonyParameters& parameters) noexcept {
   rng_ = Rng(parameters.seed);
   deposit_rng_ = Rng(~parameters.seed);
   generation_ = 0;
+  bettered_ = 0;
   ants_done_ = 0;
   ants_over_ = false;
   has_best_ = false;
@@ -148,13 +149,18 @@ int Colony::take_generation_best() noexcept {
   }
   sweep_agent_ = 0;
   sweep_edge_ = 0;
-  phase_ = generation_ == 1 ? Phase::kRaise : Phase::kEvaporate;
+  const bool stale = parameters_.restart_after > 0 && generation_ - bettered_ >= parameters_.restart_after;
+  if (stale) {
+    bettered_ = generation_;
+  }
+  phase_ = generation_ == 1 || stale ? Phase::kRaise : Phase::kEvaporate;
   return 1;
 }
 
 void Colony::set_best(const Tour& tour) noexcept {
   best_.assign(tour);
   has_best_ = true;
+  bettered_ = generation_;
   trails_.set_limits(cost_of(best_));
 }
 

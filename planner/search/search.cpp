@@ -10,6 +10,8 @@ namespace {
 
 // Of MMAS, before its best plan is improved.
 constexpr int kFastGenerations = 5;
+// Where it cannot be improved, MMAS goes on, and begins anew after so many generations without a better plan.
+constexpr int kRestartAfter = 60;
 
 // Of a part at most: what parts multiply it by stays a whole number.
 constexpr int kMostRows = 1 << 16;
@@ -26,7 +28,10 @@ void Search::start(const ColonyParameters& parameters) noexcept {
   if (improvable_) {
     colony.generations = std::min(kFastGenerations, parameters.generations);
   }
-  colony.ant.completes = parameters.profile == Profile::kFast;
+  if (parameters.profile == Profile::kFast) {
+    colony.ant.completes = true;
+    colony.restart_after = kRestartAfter;
+  }
   colony_.start(colony);
   ready_ = true;
 }
