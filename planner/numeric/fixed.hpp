@@ -1,6 +1,7 @@
 // Fixed-point numbers with `F` bits behind the point in 64 bits: the same results on a processor of any kind, with or
-// without a floating-point unit. Range: -2^(63-F) to 2^(63-F), exclusive; resolution 2^-F. Sums and differences are exact;
-// a product keeps all its bits as Fixed<F + G>, which must fit; round_to() and / round towards minus infinity.
+// without a floating-point unit. Range: -2^(63-F) to 2^(63-F), exclusive; resolution 2^-F. Sums and differences are
+// exact; a product keeps all its bits as Fixed<F + G>, which must fit; round_to() rounds towards minus infinity, /
+// towards zero.
 #pragma once
 
 #include <compare>

@@ -10,9 +10,9 @@ namespace ivo::planner {
 
 #if IVO_PLANNER_FIXED
 
-using Trail = std::uint32_t;        ///< tau rho, 30 bits behind the point; at most 1 (tau_max rho = 1 / C, C at least 1 s)
-using Visibility = std::uint32_t;   ///< eta^beta, 18 bits behind the point; at least 1 unit, below 2^14
-using Weight = std::uint64_t;       ///< their product, 38 bits behind the point
+using Trail = std::uint32_t;  ///< tau rho, 30 bits behind the point; at most 1 (tau_max rho = 1 / C, C at least 1 s)
+using Visibility = std::uint32_t;  ///< eta^beta, 18 bits behind the point; at least 1 unit, below 2^14
+using Weight = std::uint64_t;      ///< their product, 38 bits behind the point
 
 inline constexpr int kTrailBits = 30;
 inline constexpr int kVisibilityBits = 18;

@@ -1,15 +1,16 @@
-// What the search computes with: doubles, or fixed point when the planner is built with IVO_PLANNER_FIXED (CMake option).
-// Tables - graph, sight, prior - are made with doubles in both; from the first ant on a fixed-point build uses whole
-// numbers alone.
+// What the search computes with: doubles, or fixed point when the planner is built with IVO_PLANNER_FIXED (CMake
+// option). Tables - graph, sight, prior - are made with doubles in both; from the first ant on a fixed-point build uses
+// whole numbers alone.
 //
-// | type    | holds                         | fixed format | range        | resolution     |
-// | ------- | ----------------------------- | ------------ | ------------ | -------------- |
-// | Seconds | times, durations              | Q47.16       | to 2^47 s    | 15 us          |
-// | Pace    | seconds a sight point         | Q31.32       | to 2^31      | 2.3e-10        |
-// | Mass    | probability, and mass x steps | Q32.31       | to 2^32      | 4.7e-10        |
-// | MassTime| mass x seconds                | Q16.47       | to 65,536 s  | 7e-15          |
-// | Trail   | tau rho                       | Q33.30       | to 2^33      | 9.3e-10        |
-// | Weight  | tau rho eta^beta              | Q25.38       | to 2^25      | 3.6e-12        |
+// | type       | holds                         | fixed format | range       | resolution |
+// | ---------- | ----------------------------- | ------------ | ----------- | ---------- |
+// | Seconds    | times, durations              | Q47.16       | to 2^47 s   | 15 us      |
+// | Pace       | seconds a sight point         | Q31.32       | to 2^31     | 2.3e-10    |
+// | Mass       | probability, and mass x steps | Q32.31       | to 2^32     | 4.7e-10    |
+// | MassTime   | mass x seconds                | Q16.47       | to 65,536 s | 7e-15      |
+// | Trail      | tau rho; roulette.hpp         | UQ2.30       | to 4        | 9.3e-10    |
+// | Visibility | eta^beta                      | UQ14.18      | to 2^14     | 3.8e-6     |
+// | Weight     | tau rho eta^beta              | UQ26.38      | to 2^26     | 3.6e-12    |
 #pragma once
 
 #include <cstdint>

@@ -64,6 +64,7 @@ Refusal normalise(const Cells& cells, const SightTable& sight, int agents, std::
   belief.unobservable_share = std::max(0.0, 1.0 - observable / whole);
   belief.without_mass.open(cells.columns(), cells.rows());
   belief.alike = Mass{};
+  belief.whole = Mass{};
   for (Cell c = 0; c < cells.count(); ++c) {
     Mass& mass = belief.mass[index(c)];
     mass = sight.observable_by(c) != 0 ? mass_from(raw[index(c)] / observable) : Mass{};
@@ -71,6 +72,7 @@ Refusal normalise(const Cells& cells, const SightTable& sight, int agents, std::
       belief.without_mass.set(cells.column(c), cells.row(c));
       continue;
     }
+    belief.whole += mass;
     belief.alike = belief.mass_cell_count == 0 || belief.alike == mass ? mass : Mass{};
     belief.mass_cells[index(belief.mass_cell_count++)] = c;
   }
@@ -110,13 +112,16 @@ Refusal divide(const Cells& cells, const SightTable& sight, const PreferredAreas
     const double part = to_double(belief.mass[index(c)]) / std::popcount(takers);
     for (int m = 0; m < belief.agents; ++m) {
       const bool counts = in(takers, m) && in(sight.observable_by(c), m);
-      belief.sub_mass[index(m)][index(c)] = counts ? mass_from(part) : Mass{};
+      belief.sub_mass[index(m)][index(c)] =
+          Mass(counts ? std::popcount(takers) : 0);  // how many share it, until scaled
       sums[index(m)] += counts ? part : 0.0;
     }
   }
   for (int m = 0; m < belief.agents; ++m) {
-    fill_sub_prior(m, sums[index(m)], belief, left_without,
-                   [&](Cell c) { return to_double(belief.sub_mass[index(m)][index(c)]); });
+    fill_sub_prior(m, sums[index(m)], belief, left_without, [&](Cell c) {
+      const double takers = to_double(belief.sub_mass[index(m)][index(c)]);
+      return takers > 0.0 ? to_double(belief.mass[index(c)]) / takers : 0.0;
+    });
   }
   return {};
 }

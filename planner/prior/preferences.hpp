@@ -15,9 +15,9 @@ namespace ivo::planner {
 
 using PreferredAreas = StaticVector<Areas, limits::kAgents>;
 
-/// From raw masses, one a cell and not normalised: belief.mass with sum 1 over the observable cells and 0 elsewhere, the
-/// list of cells with mass, and the unobservable share. Refuses a mass below 0, one that is not
-/// finite, and an agent that can observe no mass. Cost: the cells.
+/// From raw masses, one a cell and not normalised: belief.mass with sum 1 over the observable cells and 0 elsewhere,
+/// the list of cells with mass, and the unobservable share. Refuses a mass below 0, one that is not finite, and an
+/// agent that can observe no mass. Cost: the cells.
 [[nodiscard]] Refusal normalise(const Cells& cells, const SightTable& sight, int agents, std::span<const double> raw,
                                 Belief& belief) noexcept;
 
@@ -28,8 +28,8 @@ using PreferredAreas = StaticVector<Areas, limits::kAgents>;
 [[nodiscard]] Refusal divide(const Cells& cells, const SightTable& sight, const PreferredAreas& preferred,
                              Belief& belief, AgentSet& left_without) noexcept;
 
-/// p_m of one agent from shares of any scale, `sum` their sum over the cells with mass: scaled to 1/M; p/M when there is
-/// none, and `left_without` says so. Cost: the cells with mass.
+/// p_m of one agent from shares of any scale, `sum` their sum over the cells with mass: scaled to 1/M; p/M when there
+/// is none, and `left_without` says so. Cost: the cells with mass.
 template <class ShareOf>
 void fill_sub_prior(int agent, double sum, Belief& belief, AgentSet& left_without, ShareOf&& share_of) noexcept {
   const bool none = sum <= 0.0;
@@ -42,6 +42,5 @@ void fill_sub_prior(int agent, double sum, Belief& belief, AgentSet& left_withou
     belief.sub_mass[index(agent)][index(c)] = mass_from(share * scale);
   }
 }
-
 
 }  // namespace ivo::planner

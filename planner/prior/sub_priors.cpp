@@ -39,6 +39,7 @@ Refusal give_sub_priors(const Cells& cells, const SightTable& sight, const SubPr
   belief.has_sub_priors = true;
   left_without = 0;
   for (int m = 0; m < belief.agents; ++m) {
+    std::fill_n(belief.sub_mass[index(m)].begin(), belief.cells, Mass{});  // of an earlier mission
     const auto share_of = [&](Cell c) {
       if (!in(sight.observable_by(c), m)) {
         return 0.0;

@@ -4,6 +4,7 @@
 
 #include "planner/search/expected_time.hpp"
 #include "planner/search/first_sightings.hpp"
+#include "planner/search/work.hpp"
 
 namespace ivo::planner {
 
@@ -16,7 +17,7 @@ void Ant::start(const AntParameters& parameters, Heuristic heuristic, int beta) 
     ant_number_ = 1;
   }
   seen_.copy(world_.belief.without_mass);
-  unseen_ = Mass(1);
+  unseen_ = world_.belief.whole;
   low_steps_ = high_steps_ = Mass{};
   last_new_s_ = Seconds{};
   second_wind_ = false;
@@ -31,7 +32,7 @@ void Ant::start(const AntParameters& parameters, Heuristic heuristic, int beta) 
     visit(m);
     agent_ = m;
     for (const Swath& swath : world_.sight.from_node(m, m).swaths) {
-      look(swath, world_.sight.words(swath), 0, 0);
+      (void)look(swath, world_.sight.words(swath), 0, 0);
     }
   }
   phase_ = Phase::kChooseAgent;
@@ -70,7 +71,9 @@ int Ant::choose_agent(Rng& rng) noexcept {
   }
   if (left.empty() && parameters_.completes && !second_wind_ && !complete()) {
     second_wind_ = true;
-    retired_.fill(false);
+    for (int m = 0; m < world_.graph.agents(); ++m) {
+      retired_[index(m)] = paths_[index(m)].full();
+    }
     return 1;
   }
   if (complete() || left.empty()) {
@@ -115,15 +118,16 @@ int Ant::choose_node(Rng& rng) noexcept {
   const Node here = at_[index(agent_)];
   const Edge first = graph.first_edge(here);
   const Edge end = graph.end_edge(here);
+  const int agent = agent_;
+  const bool sectors = heuristic_ == Heuristic::kMts;
   Weight sum{};
   for (Edge e = first; e < end; ++e) {
-    if (in(graph.open_to(e), agent_) && !visited(graph.head(e))) {
-      sum += heuristic_ == Heuristic::kMts ? trails_.attraction(agent_, e, sectors_.visibility(e, beta_))
-                                           : trails_.attraction(agent_, e);
+    if (!visited(graph.head(e)) && in(graph.open_to(e), agent)) {
+      sum += sectors ? trails_.attraction(agent, e, sectors_.visibility(e, beta_)) : trails_.attraction(agent, e);
     }
     weights_[index(e - first)] = sum;
   }
-  const int work = end - first + 1;
+  const int work = work::choice(end - first);
   if (sum <= Weight{}) {
     jump_.start(graph, agent_, here);
     phase_ = Phase::kJump;
@@ -145,7 +149,7 @@ int Ant::choose_node(Rng& rng) noexcept {
 
 bool Ant::shows_something_new(const SightView& view, int& work) const noexcept {
   for (const Swath& swath : view.swaths) {
-    work += swath.rows;
+    work += work::rows_searched(swath.rows);
     if (seen_.any_new(swath, world_.sight.words(swath))) {
       return true;
     }
@@ -158,7 +162,7 @@ bool Ant::shows_something_new(const SightView& view, int& work) const noexcept {
 int Ant::jump() noexcept {
   const int work_before = jump_.work();
   const Node n = jump_.settle_next();
-  int work = 1 + jump_.work() - work_before;
+  int work = work::settled(jump_.work() - work_before);
   if (n < 0) {
     retire();
     return work;
@@ -223,9 +227,8 @@ int Ant::move(int rows) noexcept {
     Swath part = swath;
     part.first_row += row_;
     part.rows = static_cast<std::int16_t>(std::min<int>(swath.rows - row_, rows - work + 1));
-    look(part, world_.sight.words(swath) + row_, view.reversed ? points - swath.last_point : swath.first_point,
-         view.reversed ? points - swath.first_point : swath.last_point);
-    work += part.rows;
+    work += look(part, world_.sight.words(swath) + row_, view.reversed ? points - swath.last_point : swath.first_point,
+                 view.reversed ? points - swath.first_point : swath.last_point);
     row_ += part.rows;
     if (row_ == swath.rows) {
       row_ = 0;
@@ -234,20 +237,23 @@ int Ant::move(int rows) noexcept {
   }
   if (swath_ == view.size()) {
     end_move(e);
+    work += work::kMoveEnd;
   }
   return work;
 }
 
 // A cell that a swath adds is first seen after its first point (what that one shows, the swath before has shown) and at
 // its last at the latest.
-void Ant::look(const Swath& part, const std::uint64_t* words, int first_point, int last_point) noexcept {
+int Ant::look(const Swath& part, const std::uint64_t* words, int first_point, int last_point) noexcept {
   const Belief& belief = world_.belief;
   Mass gained{};
+  int cells = 0;
   if (belief.alike > Mass{} && heuristic_ == Heuristic::kTsp) {
     gained = belief.alike * seen_.look_and_count(part, words);
   } else {
     seen_.look(part, words, [&](int row, std::uint64_t fresh) {
       const Cell first = seen_.cell(row, part.first_byte, 0);
+      cells += std::popcount(fresh);
       for_each_bit(fresh, [&](int bit) {
         gained += belief.mass[index(first + bit)];
         if (heuristic_ == Heuristic::kMts) {
@@ -256,13 +262,14 @@ void Ant::look(const Swath& part, const std::uint64_t* words, int first_point, i
       });
     });
   }
+  const int work = work::rows_shown(part.rows, cells);
   if (gained <= Mass{}) {
-    return;
+    return work;
   }
   unseen_ -= gained;
   shown_ += gained;
   if (last_point == 0) {
-    return;  // from a start, in step 0
+    return work;  // from a start, in step 0
   }
   const Edge e = route_.back();
   const Seconds begin_s = time_s_[index(agent_)];
@@ -271,6 +278,7 @@ void Ant::look(const Swath& part, const std::uint64_t* words, int first_point, i
   low_steps_ += gained * (std::max(step_of(earliest_s), 1) - 1);
   high_steps_ += gained * (std::max(step_of(begin_s + after_points(pace, last_point)), 1) - 1);
   last_new_s_ = earliest_s;
+  return work;
 }
 
 void Ant::end_move(Edge e) noexcept {

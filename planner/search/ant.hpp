@@ -1,6 +1,6 @@
 // One ant: builds a path for every agent, move by move, and can be stopped between any two moves' parts (model.md,
-// "Search (MMAS)"). It keeps what is seen as bits; the exact cost is left to who needs it (tour_scorer.hpp), and a lower
-// and an upper bound of it fall out on the way.
+// "Search (MMAS)"). It keeps what is seen as bits; the exact cost is left to who needs it (tour_scorer.hpp), and a
+// lower and an upper bound of it fall out on the way.
 #pragma once
 
 #include <array>
@@ -30,8 +30,8 @@ class Ant {
   /// Puts every agent on its start. `beta` is for eta_MTS; eta_TSP is in the trails. Cost: the seen map's bytes.
   void start(const AntParameters& parameters, Heuristic heuristic, int beta) noexcept;
 
-  /// Does a part of the work: a choice, up to `rows` rows of a move, one node of a jump search. Returns the work done, in
-  /// units (planner.hpp). Nothing when done.
+  /// Does a part of the work: a choice, up to `rows` rows of a move, one node of a jump search. Returns the work done,
+  /// in units (planner.hpp). Nothing when done.
   int advance(Rng& rng, int rows) noexcept;
 
   [[nodiscard]] bool done() const noexcept { return phase_ == Phase::kDone; }
@@ -43,7 +43,7 @@ class Ant {
   // When done:
   [[nodiscard]] bool complete() const noexcept;
   [[nodiscard]] Mass unseen() const noexcept { return unseen_; }
-  /// Of Eq. 8; the exact cost lies inside.
+  /// Of Eq. 8, of a complete tour; the exact cost lies inside.
   [[nodiscard]] CostInterval cost() const noexcept;
 
  private:
@@ -61,7 +61,7 @@ class Ant {
   void go_to(Node n) noexcept;
   int move(int rows) noexcept;
   void begin_move() noexcept;
-  void look(const Swath& part, const std::uint64_t* words, int first_point, int last_point) noexcept;
+  int look(const Swath& part, const std::uint64_t* words, int first_point, int last_point) noexcept;
   void end_move(Edge e) noexcept;
   void retire() noexcept;
   [[nodiscard]] bool may_share(int other, const EdgePath& path, std::size_t i, Edge e) const noexcept;

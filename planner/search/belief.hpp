@@ -16,11 +16,13 @@ struct Belief {
   int cells = 0;
   int agents = 0;
   bool has_sub_priors = false;
-  /// p: sums to 1 over the observable cells, 0 elsewhere; multiples of kMassUnit, so that sums of them are exact.
+  /// p: sums to `whole` over the observable cells, 0 elsewhere; multiples of kMassUnit, so that sums of them are exact.
   std::array<Mass, limits::kCells> mass{};
+  Mass whole =
+      Mass(1);  ///< the sum of p: 1 but for the rounding of the cells; nothing is unseen when all of it is seen
   /// p_m: each sums to 1/M (Eq. 10); set when has_sub_priors.
   std::array<std::array<Mass, limits::kCells>, limits::kAgents> sub_mass{};
-  Mass alike{};  ///< p of every cell with mass when all have the same, else 0
+  Mass alike{};                                   ///< p of every cell with mass when all have the same, else 0
   std::array<Cell, limits::kCells> mass_cells{};  ///< the cells with mass, ascending
   int mass_cell_count = 0;
   int sub_prior_steps = 0;          ///< K of EST: steps of 1 s over which every plan of the mission is summed

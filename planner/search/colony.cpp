@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "planner/search/work.hpp"
+
 namespace ivo::planner {
 namespace {
 
@@ -23,19 +25,27 @@ void Colony::start(const ColonyParameters& parameters) noexcept {
   trails_.start(world_.graph, parameters.rho, parameters.heuristic == Heuristic::kTsp ? parameters.beta : 0);
   ant_.open();
   scorer_.open(parameters.profile == Profile::kPaper);
+  if (parameters.profile == Profile::kPaper) {
+    scorer_.warm();
+  }
   rng_ = Rng(parameters.seed);
   deposit_rng_ = Rng(~parameters.seed);
   generation_ = 0;
   ants_done_ = 0;
   ants_over_ = false;
   has_best_ = false;
-  begin_generation();
+  (void)begin_generation();
 }
 
-void Colony::begin_generation() noexcept {
+int Colony::begin_generation() noexcept {
   deposits_iteration_best_ = deposit_rng_.unit() < parameters_.iteration_best;
+  return begin_ant();
+}
+
+int Colony::begin_ant() noexcept {
   phase_ = Phase::kAnt;
   ant_.start(parameters_.ant, parameters_.heuristic, parameters_.beta);
+  return 16 + work::bytes(world_.belief.without_mass.bytes());
 }
 
 int Colony::advance(int rows) noexcept {
@@ -108,9 +118,7 @@ int Colony::compare() noexcept {
 int Colony::next_ant(int work) noexcept {
   ++ants_done_;
   if (ants_done_ < parameters_.ants) {
-    phase_ = Phase::kAnt;
-    ant_.start(parameters_.ant, parameters_.heuristic, parameters_.beta);
-    return work;
+    return work + begin_ant();
   }
   return work + end_generation();
 }
@@ -120,7 +128,8 @@ int Colony::end_generation() noexcept {
   ants_over_ = true;
   ++generation_;
   const Tour& tour = generation_best_;
-  const bool may_be_best = !has_best_ || tour.complete != best_.complete || !tour.complete || tour.cost.low < best_.cost.low;
+  const bool may_be_best =
+      !has_best_ || tour.complete != best_.complete || !tour.complete || tour.cost.low < best_.cost.low;
   if (!tour.scored && (may_be_best || deposits_iteration_best_)) {
     score(generation_best_, Phase::kScoreBest);
     return 1;
@@ -158,34 +167,38 @@ void Colony::offer(const Tour& tour) noexcept {
 // To tau_max after generation 1; then evaporation, deposit, clamp: over all trails, some rows at a time.
 int Colony::sweep_trails(int rows) noexcept {
   const Graph& graph = world_.graph;
-  const Edge count = std::min<Edge>(rows, graph.edges() - sweep_edge_);
+  // A few trails to the unit.
+  const Edge count = std::min<Edge>(rows * 3, graph.edges() - sweep_edge_);
+  int work = 1;
   if (phase_ == Phase::kRaise) {
     trails_.raise_to_max(sweep_agent_, sweep_edge_, count);
+    work += work::raised(count);
   } else if (phase_ == Phase::kEvaporate) {
     trails_.evaporate(sweep_agent_, sweep_edge_, count);
+    work += work::evaporated(count);
   } else {
     trails_.clamp(sweep_agent_, sweep_edge_, count);
+    work += work::clamped(count);
   }
   sweep_edge_ += count;
   if (sweep_edge_ < graph.edges()) {
-    return count + 1;
+    return work;
   }
   sweep_edge_ = 0;
   ++sweep_agent_;
   if (sweep_agent_ < graph.agents()) {
-    return count + 1;
+    return work;
   }
   sweep_agent_ = 0;
   if (phase_ == Phase::kRaise) {
     phase_ = Phase::kEvaporate;
-    return count + 1;
+    return work;
   }
   if (phase_ == Phase::kEvaporate) {
     phase_ = Phase::kClamp;
-    return count + 1 + deposit();
+    return work + deposit();
   }
-  begin_generation();
-  return count + 1;
+  return work + begin_generation();
 }
 
 int Colony::deposit() noexcept {

@@ -57,7 +57,8 @@ class Colony {
   int end_ant() noexcept;
   int compare() noexcept;
   int next_ant(int work) noexcept;
-  void begin_generation() noexcept;
+  int begin_generation() noexcept;
+  int begin_ant() noexcept;
   int end_generation() noexcept;
   int take_generation_best() noexcept;
   int deposit() noexcept;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "config/base/contract.hpp"
+#include "planner/search/work.hpp"
 #include "planner/world/visibility.hpp"
 
 namespace ivo::planner {
@@ -28,8 +30,8 @@ int EdgeEvents::prepare(int agent, Node tail, Edge e, int rows) noexcept {
   const SightView view = sight_.along_edge(agent, e);
   while (swath_ < view.size() && work < rows) {
     const Swath& swath = view.at(swath_);
-    for (; row_ < swath.rows && work < rows; ++row_, ++work) {
-      add_row(swath, row_);
+    for (; row_ < swath.rows && work < rows; ++row_) {
+      work += add_row(swath, row_);
     }
     if (row_ == swath.rows) {
       row_ = 0;
@@ -42,19 +44,24 @@ int EdgeEvents::prepare(int agent, Node tail, Edge e, int rows) noexcept {
   return work;
 }
 
-void EdgeEvents::begin(int agent, Node tail, Edge e) noexcept {
-  const SightView view = sight_.along_edge(agent, e);
+// No edge has more events than its swaths have cells.
+int EdgeEvents::most(int agent, Edge e) const noexcept {
   int most = 0;
-  for (const Swath& swath : view.swaths) {
+  for (const Swath& swath : sight_.along_edge(agent, e).swaths) {
     const std::uint64_t* const words = sight_.words(swath);
     for (int i = 0; i < swath.rows; ++i) {
       most += std::popcount(words[i]);
     }
   }
+  return most;
+}
+
+void EdgeEvents::begin(int agent, Node tail, Edge e) noexcept {
+  const SightView view = sight_.along_edge(agent, e);
   if (making_ != kNone) {
     taken_.open(cells_.columns(), cells_.rows());  // another edge was left half made
   }
-  make_room(most);
+  make_room(most(agent, e));
   making_ = slot(agent, e);
   made_first_ = head_;
   made_ = 0;
@@ -82,7 +89,8 @@ void EdgeEvents::make_room(int size) noexcept {
     oldest_ = (oldest_ + 1) % kBlocks;
     --block_count_;
   };
-  if (head_ + size > limits::kSightEvents) {
+  IVO_CONTRACT(size <= kept_);
+  if (head_ + size > kept_) {
     while (block_count_ > 0 && blocks_[index(oldest_)].first >= head_) {
       evict();
     }
@@ -97,7 +105,8 @@ void EdgeEvents::make_room(int size) noexcept {
 }
 
 // A cell of this swath that nothing earlier took is first seen from one of the swath's points.
-void EdgeEvents::add_row(const Swath& swath, int row) noexcept {
+int EdgeEvents::add_row(const Swath& swath, int row) noexcept {
+  int work = 2;
   const int first = reversed_ ? points_ - swath.last_point : swath.first_point;
   const int last = reversed_ ? points_ - swath.first_point : swath.last_point;
   const Swath one{swath.first_row + row, swath.first_byte, 0, 1, 0, 0};
@@ -105,12 +114,13 @@ void EdgeEvents::add_row(const Swath& swath, int row) noexcept {
     for_each_bit(fresh, [&](int bit) {
       const Cell c = taken_.cell(at_row, swath.first_byte, bit);
       const int column = 8 * swath.first_byte + bit;
-      pool_[index(made_first_ + made_++)] = SightEvent(c, first_point(column, at_row, first, last));
+      pool_[index(made_first_ + made_++)] = SightEvent(c, first_point(column, at_row, first, last, work));
     });
   });
+  return work;
 }
 
-int EdgeEvents::first_point(int column, int row, int from, int to) const noexcept {
+int EdgeEvents::first_point(int column, int row, int from, int to, int& work) const noexcept {
   // Where the circle around the cell meets the line says where to begin; the rule decides.
   const Point c = cells_.centre(column, row);
   const double dx = end_.x_m - tail_.x_m;
@@ -123,8 +133,16 @@ int EdgeEvents::first_point(int column, int row, int from, int to) const noexcep
   int k = std::clamp(static_cast<int>(share * points_) - 1, from, to);
   for (; k < to; ++k) {
     const Point p = sight_point(tail_, end_, k, points_);
-    if (within_radius(cells_, p, column, row, radius_m_) &&
-        (open_ || line_of_sight(cells_, p, cells_.at(column, row)))) {
+    work += 2;
+    if (!within_radius(cells_, p, column, row, radius_m_)) {
+      continue;
+    }
+    if (open_) {
+      break;
+    }
+    work += work::ray(std::abs(column - static_cast<int>(p.x_m / cells_.cell_m())),
+                      std::abs(row - static_cast<int>(p.y_m / cells_.cell_m())));
+    if (line_of_sight(cells_, p, cells_.at(column, row))) {
       break;
     }
   }

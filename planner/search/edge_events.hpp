@@ -1,5 +1,5 @@
-// At which sight point each cell is first seen along an edge: what exact scoring needs. Made when an edge is first scored
-// and kept in a ring, the oldest making room, so that the memory does not grow with the graph.
+// At which sight point each cell is first seen along an edge: what exact scoring needs. Made when an edge is first
+// scored and kept in a ring, the oldest making room, so that the memory does not grow with the graph.
 #pragma once
 
 #include <array>
@@ -30,8 +30,9 @@ class SightEvent {
 
 class EdgeEvents {
  public:
-  EdgeEvents(const Cells& cells, const Graph& graph, const SightTable& sight) noexcept
-      : cells_(cells), graph_(graph), sight_(sight) {}
+  /// `kept` events at most are kept ready; the cells of each swath of an edge together must fit.
+  EdgeEvents(const Cells& cells, const Graph& graph, const SightTable& sight, int kept = limits::kSightEvents) noexcept
+      : cells_(cells), graph_(graph), sight_(sight), kept_(kept) {}
 
   /// Forgets all: another mission. Cost: the edges.
   void clear() noexcept;
@@ -39,6 +40,11 @@ class EdgeEvents {
   /// Works towards having the events of `e`, the edge from `tail`, for `agent`: up to about `rows` rows of its swaths.
   /// Returns the work done, in rows; 0 when they were ready.
   int prepare(int agent, Node tail, Edge e, int rows) noexcept;
+  /// True when the edge can be made ready and no other has to make room for it.
+  [[nodiscard]] bool has_room_for(int agent, Edge e) const noexcept {
+    return head_ + most(agent, e) <= limits::kSightEvents && block_count_ < kBlocks &&
+           (block_count_ == 0 || blocks_[index(oldest_)].first < head_);
+  }
   [[nodiscard]] bool ready(int agent, Edge e) const noexcept { return slots_[slot(agent, e)].count >= 0; }
   /// Cells seen along a ready edge and not from its tail: each once, at the first point that sees it.
   [[nodiscard]] std::span<const SightEvent> along(int agent, Edge e) const noexcept {
@@ -61,15 +67,17 @@ class EdgeEvents {
   [[nodiscard]] std::size_t slot(int agent, Edge e) const noexcept {
     return index(sight_.layer(agent)) * limits::kEdges + index(e);
   }
+  [[nodiscard]] int most(int agent, Edge e) const noexcept;
   void begin(int agent, Node tail, Edge e) noexcept;
   void make_room(int size) noexcept;
-  void add_row(const Swath& swath, int row) noexcept;
-  [[nodiscard]] int first_point(int column, int row, int from, int to) const noexcept;
+  int add_row(const Swath& swath, int row) noexcept;
+  [[nodiscard]] int first_point(int column, int row, int from, int to, int& work) const noexcept;
   void finish(int agent, Node tail, Edge e) noexcept;
 
   const Cells& cells_;
   const Graph& graph_;
   const SightTable& sight_;
+  const int kept_;
   std::array<Slot, static_cast<std::size_t>(limits::kAgents) * limits::kEdges> slots_{};
   std::array<SightEvent, limits::kSightEvents> pool_{};
   std::array<Block, kBlocks> blocks_{};

@@ -6,6 +6,7 @@ namespace ivo::planner {
 
 void ExpectedTime::add(const Belief& belief, const FirstSightings& sightings, int first, int count) noexcept {
   ExpectedTime sums = *this;  // in registers
+  sums.whole_ = belief.whole;
   for (int i = first; i < first + count; ++i) {
     const Cell c = belief.mass_cells[index(i)];
     if (!sightings.seen(c)) {
@@ -30,11 +31,9 @@ void ExpectedTime::add(const Belief& belief, const FirstSightings& sightings, in
   *this = sums;
 }
 
-Seconds ExpectedTime::horizon_s() const noexcept {
-  return *std::max_element(path_end_s_.begin(), path_end_s_.end());
-}
+Seconds ExpectedTime::horizon_s() const noexcept { return *std::max_element(path_end_s_.begin(), path_end_s_.end()); }
 
-Mass ExpectedTime::unseen() const noexcept { return std::max(Mass{}, Mass(1) - seen_mass_); }
+Mass ExpectedTime::unseen() const noexcept { return std::max(Mass{}, whole_ - seen_mass_); }
 
 // sum over k = 1..N of [1 - P(k)]: a cell of step k counts in k - 1 terms, what stays unseen in all N.
 Mass ExpectedTime::expected_time() const noexcept { return mass_steps_ + unseen() * step_of(horizon_s()); }

@@ -46,11 +46,12 @@ class ExpectedTime {
     }
   }
 
+  Mass whole_ = Mass(1);
   Mass seen_mass_{};
-  MassTime mass_seconds_{};  // sum of p t_c
-  Mass mass_steps_{};        // sum of p (max(k, 1) - 1)
-  Mass sub_mass_{};          // sum of p_w
-  Mass sub_mass_steps_{};    // sum of p_w min(max(k, 1) - 1, K)
+  MassTime mass_seconds_{};    // sum of p t_c
+  Mass mass_steps_{};          // sum of p (max(k, 1) - 1)
+  Mass sub_mass_{};            // sum of p_w
+  Mass sub_mass_steps_{};      // sum of p_w min(max(k, 1) - 1, K)
   Mass sub_mass_all_steps_{};  // the same without K
   std::array<Seconds, limits::kAgents> path_end_s_{};
 };

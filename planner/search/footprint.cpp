@@ -7,16 +7,11 @@ static_assert(sizeof(Planner) <= limits::kPlannerBytes, "the planner is over its
 
 std::span<const Planner::Part> Planner::parts() noexcept {
   static constexpr Part kParts[] = {
-      {"cells", sizeof(cells_)},
-      {"graph", sizeof(graph_)},
-      {"prior", sizeof(raw_mass_)},
-      {"belief", sizeof(belief_)},
-      {"sight", sizeof(sight_)},
-      {"bounds", sizeof(bounds_)},
-      {"paces", sizeof(paces_)},
-      {"sightings", sizeof(search_.sightings_)},
-      {"colony", sizeof(search_.colony_)},
-      {"improver", sizeof(search_.improver_)},
+      {"cells", sizeof(cells_)},           {"graph", sizeof(graph_)},
+      {"prior", sizeof(raw_mass_)},        {"belief", sizeof(belief_)},
+      {"sight", sizeof(sight_)},           {"bounds", sizeof(bounds_)},
+      {"paces", sizeof(paces_)},           {"sightings", sizeof(search_.sightings_)},
+      {"colony", sizeof(search_.colony_)}, {"improver", sizeof(search_.improver_)},
   };
   // Whoever adds a member adds it here.
   constexpr std::size_t kSmall = 262'144;

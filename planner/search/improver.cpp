@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "planner/numeric/exponential.hpp"
+#include "planner/search/work.hpp"
 
 namespace ivo::planner {
 namespace {
@@ -179,13 +180,10 @@ void Improver::make_current() noexcept {
 int Improver::restore_leg(int rows) noexcept {
   work_ = 1;
   if (restoring_ >= 0) {
-    while (work_ <= rows) {
-      if (pool_.make_part(work_)) {
-        (void)current_.legs[index(restored_agent_)].push_back({restoring_, false});
-        restoring_ = -1;
-        ++restored_;
-        break;
-      }
+    if (pool_.make_rows(work_, rows + 1)) {
+      (void)current_.legs[index(restored_agent_)].push_back({restoring_, false});
+      restoring_ = -1;
+      ++restored_;
     }
     return work_;
   }
@@ -200,7 +198,7 @@ int Improver::restore_leg(int rows) noexcept {
   ++restored_agent_;
   restored_ = 1;
   if (restored_agent_ == agents_) {
-    judge_.start(current_, Seconds{});
+    work_ += judge_.start(current_, Seconds{});
     phase_ = Phase::kJudgeFirst;
   }
   return work_;
@@ -291,13 +289,13 @@ int Improver::make(int rows) noexcept {
         after_proposal();
         return work_;
       }
-    } else if (pool_.make_part(work_)) {
+    } else if (pool_.make_rows(work_, rows + 1)) {
       ++wish_;
     }
   }
   if (wish_ == wishes_.size()) {
     fill_in();
-    judge_.start(candidate_, changed_s_);
+    work_ += judge_.start(candidate_, changed_s_);
     phase_ = Phase::kJudge;
   }
   return work_;
@@ -310,7 +308,7 @@ void Improver::fill_in() noexcept {
         leg.segment = wishes_[index(-1 - leg.segment)].segment;
       }
     }
-    work_ += size_of(candidate_.legs[index(m)]) / 8;
+    work_ += work::legs(size_of(candidate_.legs[index(m)])) / 2;
   }
 }
 
@@ -319,7 +317,7 @@ int Improver::propose() noexcept {
   wish_ = 0;
   lost_.clear();
   changed_s_ = kLater;
-  work_ = 4;
+  work_ = work::kProposal;
   candidate_.assign(current_, agents_);
   const int agent = rng_.below(agents_);
   const int draw = rng_.below(100);
@@ -330,7 +328,7 @@ int Improver::propose() noexcept {
                      : draw < 93 ? relocate(agent)
                                  : exchange(agent);
   for (int m = 0; m < agents_; ++m) {
-    work_ += size_of(current_.legs[index(m)]) / 8;
+    work_ += work::legs(size_of(current_.legs[index(m)]));
   }
   if (sound) {
     phase_ = Phase::kMake;
@@ -566,13 +564,17 @@ int Improver::settle() noexcept {
     return drafts_ <= kLanePlans ? take_draft() : begin_round();
   }
   const MassTime worse = judgement.cost - judged_.cost;
+  int work = work::kJudgement;
   if (worse <= MassTime{} || worse < temperature_ * patience_[index(rng_.below(256))] / 256) {
     accept();
+    for (int m = 0; m < agents_; ++m) {
+      work += work::legs(size_of(current_.legs[index(m)]));
+    }
   } else {
     reject();
   }
   after_proposal();
-  return 1;
+  return work;
 }
 
 // Of the drafts the best is improved.

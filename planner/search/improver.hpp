@@ -1,7 +1,7 @@
-// Iterated improvement of a plan, off the graph too: waypoints are moved, added and dropped, stretches reversed (2-opt),
-// moved (or-opt), given to another agent or exchanged at their ends, and a worse plan is sometimes kept for a while
-// (simulated annealing, Kirkpatrick et al. 1983), in rounds that double in length: there is no time by which it must be
-// asked. The best plan by its exact score is always ready and only gets better.
+// Iterated improvement of a plan, off the graph too: waypoints are moved, added and dropped, stretches reversed
+// (2-opt), moved (or-opt), given to another agent or exchanged at their ends, and a worse plan is sometimes kept for a
+// while (simulated annealing, Kirkpatrick et al. 1983), in rounds that double in length: there is no time by which it
+// must be asked. The best plan by its exact score is always ready and only gets better.
 #pragma once
 
 #include <algorithm>
@@ -117,7 +117,7 @@ class Improver {
     bool wanted = true;
   };
   StaticVector<Wish, 8> wishes_;
-  std::size_t wish_ = 0;  // the one under way
+  std::size_t wish_ = 0;                 // the one under way
   StaticVector<std::int32_t, 16> lost_;  // segments of the current route alone
   Seconds changed_s_{};
   int work_ = 0;
@@ -135,7 +135,7 @@ class Improver {
   Lanes lanes_;
   int drafts_ = 0;  // judged
   bool draft_broken_ = false;
-  bool learned_ = false;  // the best is another's: the next round begins with it
+  bool learned_ = false;          // the best is another's: the next round begins with it
   bool recalls_learned_ = false;  // its cost here is not known yet
   std::array<Waypoints, limits::kAgents> draft_{};
   int restored_agent_ = 0;
@@ -146,7 +146,7 @@ class Improver {
   bool remembered_ = false;  // and not yet scored
   std::array<Waypoints, limits::kAgents> memory_{};
   std::array<StaticVector<Point, limits::kWaypoints>, limits::kAgents> points_{};  // of the memory, while it is scored
-  int scored_at_ = 0;  // proposals by then
+  int scored_at_ = 0;                                                              // proposals by then
 
   bool has_best_ = false;
   PlanScore best_score_;

@@ -56,7 +56,8 @@ void fill_lanes(const LaneTeam& team, int agent, int number, Lanes& lanes) noexc
   bool up = frame.along(start) <= length / 2;
   for (std::int32_t i = 0; i < count; ++i) {
     const std::int32_t k = from_low ? i : count - 1 - i;
-    const auto lane = static_cast<std::int32_t>(strip.low + std::int64_t{strip.high - strip.low} * (2 * k + 1) / (2 * count));
+    const auto lane =
+        static_cast<std::int32_t>(strip.low + std::int64_t{strip.high - strip.low} * (2 * k + 1) / (2 * count));
     const std::int32_t across = std::clamp(lane, team.border, std::max(team.border, extent - team.border));
     (void)lanes.push_back(frame.spot(across, up ? turn : length - turn));
     (void)lanes.push_back(frame.spot(across, up ? length - turn : turn));

@@ -7,7 +7,8 @@ namespace {
 
 // In [0, 1), spread evenly over neighbouring cells: multiples of the golden ratio's fraction (a Weyl sequence).
 double dither(int column, int row) noexcept {
-  const std::uint32_t mixed = static_cast<std::uint32_t>(column) * 0x9E3779B1U + static_cast<std::uint32_t>(row) * 0x5851F42DU;
+  const std::uint32_t mixed =
+      static_cast<std::uint32_t>(column) * 0x9E3779B1U + static_cast<std::uint32_t>(row) * 0x5851F42DU;
   return static_cast<double>(mixed >> 8U) * 0x1p-24;
 }
 

@@ -1,6 +1,6 @@
-// Masses as bits: mass is the weighted sum of a few planes, so that a sum over 64 cells is a few counts. Where all cells
-// have the same mass one plane is exact; elsewhere five keep 1/31 of the largest, and what is below is dithered, so that
-// sums over many cells stay right.
+// Masses as bits: mass is the weighted sum of a few planes, so that a sum over 64 cells is a few counts. Where all
+// cells have the same mass one plane is exact; elsewhere five keep 1/31 of the largest, and what is below is dithered,
+// so that sums over many cells stay right.
 #pragma once
 
 #include <array>
@@ -24,6 +24,8 @@ class MassPlanes {
     }
     return sum;
   }
+
+  [[nodiscard]] int count() const noexcept { return count_; }
 
  private:
   static constexpr int kPlanes = 5;

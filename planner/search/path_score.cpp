@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "planner/numeric/index.hpp"
+#include "planner/search/work.hpp"
 #include "planner/world/sight_disc.hpp"
 #include "planner/world/visibility.hpp"
 
@@ -60,7 +61,7 @@ void PathScorer::begin_agent(int agent) noexcept {
   }
   seen_.open(cells_->columns(), cells_->rows());
   if (!paths_[index(agent)].waypoints.empty()) {
-    (void)look(paths_[index(agent)].waypoints[0], Seconds{});
+    begin_look(paths_[index(agent)].waypoints[0], Seconds{});
   }
   begin_leg();
 }
@@ -79,12 +80,12 @@ void PathScorer::begin_leg() noexcept {
 int PathScorer::advance(int rows) noexcept {
   int work = 1;
   if (phase_ == Phase::kClear) {
-    constexpr int kCellsARow = 16;  // so many cost no more than a row of a disc
-    const int count = std::min(rows, cells_->count() / kCellsARow + 1) * kCellsARow;
+    using work::kCellsForgotten;
+    const int count = std::min(rows, cells_->count() / kCellsForgotten + 1) * kCellsForgotten;
     const int cells = std::min(count, cells_->count() - cell_);
     sightings_.clear(cell_, cells);
     cell_ += cells;
-    work += cells / kCellsARow;
+    work += cells / kCellsForgotten;
     if (cell_ < cells_->count()) {
       return work;
     }
@@ -93,24 +94,26 @@ int PathScorer::advance(int rows) noexcept {
   }
   while (phase_ == Phase::kLook && work <= rows) {
     const WaypointPath& path = paths_[index(agent_)];
-    if (leg_ + 1 >= path.waypoints.size()) {
+    if (looking_) {
+      work += look(rows - work + 1);
+    } else if (leg_ + 1 >= path.waypoints.size()) {
       begin_agent(agent_ + 1);
-      work += 32;
+      work += work::bytes(seen_.bytes());
     } else if (point_ > points_) {
       leg_begin_s_ += after_points(pace_, points_);  // of the last sight point to the last bit
       ++leg_;
       begin_leg();
     } else {
-      work += look(sight_point(path.waypoints[leg_], path.waypoints[leg_ + 1], point_, points_),
-                   leg_begin_s_ + after_points(pace_, point_));
+      begin_look(sight_point(path.waypoints[leg_], path.waypoints[leg_ + 1], point_, points_),
+                 leg_begin_s_ + after_points(pace_, point_));
       ++point_;
     }
   }
   if (phase_ == Phase::kSum && work <= rows) {
-    const int count = std::min(rows - work + 1, belief_->mass_cell_count - cell_);
+    const int count = std::min((rows - work) / 4 + 1, belief_->mass_cell_count - cell_);
     expected_.add(*belief_, sightings_, cell_, count);
     cell_ += count;
-    work += count;
+    work += work::cells_summed(count, belief_->has_sub_priors);
     if (cell_ == belief_->mass_cell_count) {
       phase_ = Phase::kDone;
     }
@@ -118,11 +121,21 @@ int PathScorer::advance(int rows) noexcept {
   return work;
 }
 
+void PathScorer::begin_look(Point from, Seconds time_s) noexcept {
+  eye_ = from;
+  eye_s_ = time_s;
+  row_ = 0;
+  looking_ = true;
+}
+
 // Only cells that this agent has not seen before: later looks at them change nothing.
-int PathScorer::look(Point from, Seconds time_s) noexcept {
-  const SightDisc disc(*cells_, from, paths_[index(agent_)].sight_radius_m);
-  for (int row = disc.first_row(); row <= disc.last_row(); ++row) {
+int PathScorer::look(int rows) noexcept {
+  const SightDisc disc(*cells_, eye_, paths_[index(agent_)].sight_radius_m);
+  int work = 1;
+  for (; disc.first_row() + row_ <= disc.last_row() && work <= rows; ++row_) {
+    const int row = disc.first_row() + row_;
     const SightDisc::Run run = disc.run(row);
+    int cells = 0;
     for (int byte = run.first / 8; run.first <= run.last && byte * 8 <= run.last; byte += 8) {
       const int low = std::max(0, run.first - 8 * byte);
       const int high = std::min(63, run.last - 8 * byte);
@@ -134,20 +147,31 @@ int PathScorer::look(Point from, Seconds time_s) noexcept {
         continue;
       }
       if (!disc.open()) {
-        std::uint64_t hidden = 0;
-        for_each_bit(fresh, [&](int bit) {
-          if (!line_of_sight(*cells_, from, cells_->at(8 * byte + bit, row))) {
-            hidden |= std::uint64_t{1} << static_cast<unsigned>(bit);
-          }
-        });
-        fresh &= ~hidden;
+        fresh = visible(fresh, row, byte, work);
       }
+      cells += std::popcount(fresh);
       seen_.set_window(row, byte, known | fresh);
       const Cell first = cells_->at(8 * byte, row);
-      for_each_bit(fresh, [&](int bit) { (void)sightings_.see(first + bit, agent_, time_s); });
+      for_each_bit(fresh, [&](int bit) { (void)sightings_.see(first + bit, agent_, eye_s_); });
     }
+    work += work::disc_row(cells);
   }
-  return disc.last_row() - disc.first_row() + 1;
+  looking_ = disc.first_row() + row_ <= disc.last_row();
+  return work;
+}
+
+// Of a row's cells, those that nothing hides.
+std::uint64_t PathScorer::visible(std::uint64_t word, int row, int byte, int& work) const noexcept {
+  std::uint64_t hidden = 0;
+  for_each_bit(word, [&](int bit) {
+    const int column = 8 * byte + bit;
+    work += work::ray(std::abs(column - static_cast<int>(eye_.x_m / cells_->cell_m())),
+                      std::abs(row - static_cast<int>(eye_.y_m / cells_->cell_m())));
+    if (!line_of_sight(*cells_, eye_, cells_->at(column, row))) {
+      hidden |= std::uint64_t{1} << static_cast<unsigned>(bit);
+    }
+  });
+  return word & ~hidden;
 }
 
 }  // namespace ivo::planner

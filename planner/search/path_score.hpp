@@ -55,7 +55,9 @@ class PathScorer {
 
   void begin_agent(int agent) noexcept;
   void begin_leg() noexcept;
-  int look(Point from, Seconds time_s) noexcept;
+  int look(int rows) noexcept;
+  [[nodiscard]] std::uint64_t visible(std::uint64_t word, int row, int byte, int& work) const noexcept;
+  void begin_look(Point from, Seconds time_s) noexcept;
 
   const Cells* cells_ = nullptr;
   const Belief* belief_ = nullptr;
@@ -69,6 +71,10 @@ class PathScorer {
   Pace pace_{};
   Seconds leg_begin_s_{};
   int cell_ = 0;
+  Point eye_{};  // the look under way: from where, when, and its next row
+  Seconds eye_s_{};
+  int row_ = 0;
+  bool looking_ = false;
   SeenMap seen_;  // by the agent whose turn it is
   FirstSightings& sightings_;
   ExpectedTime expected_;

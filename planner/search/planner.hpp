@@ -12,8 +12,8 @@
 #include "planner/prior/sub_priors.hpp"
 #include "planner/refusal.hpp"
 #include "planner/search/bounds.hpp"
-#include "planner/search/search.hpp"
 #include "planner/search/plan.hpp"
+#include "planner/search/search.hpp"
 #include "planner/world/cells.hpp"
 #include "planner/world/graph.hpp"
 
@@ -47,7 +47,8 @@ class Planner {
   Planner& operator=(const Planner&) = delete;
 
   /// Builds cells, graph, prior, sight table and sub-priors, and readies the search. At start-up: its cost has no small
-  /// bound. What it refuses, it names; after a refusal only prepare() may be called. The map's pixels outlive the search.
+  /// bound. What it refuses, it names; after a refusal only prepare() may be called. The map's pixels outlive the
+  /// search.
   [[nodiscard]] Refusal prepare(const SearchProblem& problem) noexcept;
 
   /// As Search has them.
@@ -57,6 +58,7 @@ class Planner {
   }
   [[nodiscard]] Progress progress() const noexcept { return search_.progress(); }
   [[nodiscard]] SliceKind last_slice_kind() const noexcept { return search_.last_slice(); }
+  [[nodiscard]] bool last_slice_was_full() const noexcept { return search_.last_slice_was_full(); }
   void best_plan(Plan& plan) const noexcept { search_.best_plan(plan); }
 
   /// The first of the searches on these tables; others may be made on world() and started with parameters().

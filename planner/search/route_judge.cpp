@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "planner/search/work.hpp"
+
 namespace ivo::planner {
 namespace {
 
@@ -18,8 +20,8 @@ double share(double of, double part, double whole) noexcept { return of * (part 
 
 }  // namespace
 
-void RouteJudge::open(const Cells& cells, const Belief& belief,
-                      const std::array<SecondsAMetre, limits::kAgents>& paces, double max_unseen_mass) noexcept {
+void RouteJudge::open(const Cells& cells, const Belief& belief, const std::array<SecondsAMetre, limits::kAgents>& paces,
+                      double max_unseen_mass) noexcept {
   belief_ = &belief;
   agents_ = belief.agents;
   paces_ = paces;
@@ -34,7 +36,7 @@ void RouteJudge::open(const Cells& cells, const Belief& belief,
   done_ = true;
 }
 
-void RouteJudge::start(const Route& route, Seconds changed_s) noexcept {
+int RouteJudge::start(const Route& route, Seconds changed_s) noexcept {
   route_ = &route;
   changed_s_ = changed_s;
   done_ = false;
@@ -46,7 +48,7 @@ void RouteJudge::start(const Route& route, Seconds changed_s) noexcept {
     state_ = kept_[index(from)];
     seen_.copy(kept_seen_[index(from)]);
   } else {
-    state_ = State{.time_s = {}, .unseen = Mass(1), .unfound = Mass(1), .cost = {}, .cursors = {}};
+    state_ = State{.time_s = {}, .unseen = belief_->whole, .unfound = Mass(1), .cost = {}, .cursors = {}};
     seen_.copy(belief_->without_mass);
     for (int m = 0; m < agents_; ++m) {
       const Shown shown = look(m, pool_.part(pool_[starts_[index(m)]].first_part));
@@ -55,6 +57,7 @@ void RouteJudge::start(const Route& route, Seconds changed_s) noexcept {
     }
   }
   next_kept_s_ = kept_count_ > 0 ? kept_[index(kept_count_ - 1)].time_s + keep_every_s_ : keep_every_s_;
+  return work::kJudgement + work::bytes(seen_.bytes());
 }
 
 void RouteJudge::accept() noexcept {
@@ -75,7 +78,7 @@ int RouteJudge::advance(int rows) noexcept {
     work += advance_agent(agent);
     if (!done_ && state_.time_s >= next_kept_s_ && state_.time_s <= changed_s_ && kept_count_ < kKept) {
       keep_state();
-      work += seen_.bytes() / 64;
+      work += 15 + work::bytes(seen_.bytes());
     }
   }
   return work;
@@ -110,7 +113,7 @@ int RouteJudge::advance_agent(int agent) noexcept {
   const Shown shown = look(agent, part);
   if (state_.unseen - shown.mass <= max_unseen_) {
     end_complete(begin_s, length_s, shown);
-    return part.rows;
+    return shown.work + work::kJudgement;
   }
   const Seconds middle_s = begin_s + length_s / 2;
   if (belief_->has_sub_priors) {
@@ -130,7 +133,7 @@ int RouteJudge::advance_agent(int agent) noexcept {
     cursor.part = leg.back ? part.before : part.next;
   }
   state_.time_s = std::max(state_.time_s, cursor.time_s);
-  return part.rows + 2;
+  return shown.work + 8;
 }
 
 RouteJudge::Shown RouteJudge::look(int agent, const Part& part) noexcept {
@@ -142,15 +145,19 @@ RouteJudge::Shown RouteJudge::look(int agent, const Part& part) noexcept {
                     .last_point = 0};
   const bool sub_priors = belief_->has_sub_priors;
   if (!sub_priors && belief_->alike > Mass{}) {
-    return {belief_->alike * seen_.look_and_count(swath, part.words.data()), Mass{}};
+    return {belief_->alike * seen_.look_and_count(swath, part.words.data()), Mass{}, work::rows_judged(part.rows, 0)};
   }
   Shown shown;
+  const int planes = planes_.count() + (sub_priors ? 3 * sub_planes_[index(agent)].count() / 2 : 0);
+  int read = 0;
   seen_.look(swath, part.words.data(), [&](int row, std::uint64_t fresh) {
+    read += planes;
     shown.mass += planes_.of(row, part.first_byte, fresh);
     if (sub_priors) {
       shown.sub_mass += sub_planes_[index(agent)].of(row, part.first_byte, fresh);
     }
   });
+  shown.work = work::rows_judged(part.rows, read);
   return shown;
 }
 
@@ -169,8 +176,7 @@ void RouteJudge::end_complete(Seconds begin_s, Seconds length_s, const Shown& sh
   judgement_.end_s = begin_s + until_s;
   if (belief_->has_sub_priors) {
     const Mass found = shown.mass > Mass{} ? share(shown.sub_mass, needed, shown.mass) : Mass{};
-    judgement_.cost =
-        state_.cost + found * std::min(middle_s, horizon_s_) + (state_.unfound - found) * horizon_s_;
+    judgement_.cost = state_.cost + found * std::min(middle_s, horizon_s_) + (state_.unfound - found) * horizon_s_;
   } else {
     judgement_.cost = state_.cost + needed * middle_s + max_unseen_ * judgement_.end_s;
   }

@@ -1,6 +1,6 @@
 // What a route is worth, well enough to judge a change of it: parts of segments in order of time, what each shows first
-// taken at the part's middle. Judging starts again from a state kept a little before the change. ET_c without sub-priors,
-// EST in its continuous form with them.
+// taken at the part's middle. Judging starts again from a state kept a little before the change. ET_c without
+// sub-priors, EST in its continuous form with them.
 #pragma once
 
 #include <array>
@@ -30,8 +30,8 @@ class RouteJudge {
   void set_start(int agent, std::int32_t segment) noexcept { starts_[index(agent)] = segment; }
 
   /// Judges `route`, which is as the current one up to `changed_s`; states before that are kept for the next. `route`
-  /// lasts until done().
-  void start(const Route& route, Seconds changed_s) noexcept;
+  /// lasts until done(). Returns the work done.
+  int start(const Route& route, Seconds changed_s) noexcept;
   /// The route last judged is the current one from now on.
   void accept() noexcept;
   /// Up to about `rows` rows. Returns the work done.
@@ -62,6 +62,7 @@ class RouteJudge {
   struct Shown {
     Mass mass{};
     Mass sub_mass{};
+    int work = 0;
   };
   [[nodiscard]] int next_agent() const noexcept;
   int advance_agent(int agent) noexcept;

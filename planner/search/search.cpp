@@ -33,7 +33,8 @@ void Search::start(const ColonyParameters& parameters) noexcept {
 
 void Search::step(Budget budget) noexcept {
   last_slice_ = kind();
-  for (int left = budget.units; left > 0 && last_slice_ != SliceKind::kNone && kind() == last_slice_;) {
+  int left = budget.units;
+  while (left > 0 && last_slice_ != SliceKind::kNone && kind() == last_slice_) {
     const int rows = std::min(left, kMostRows);
     if (improving_) {
       left -= improver_.advance(rows);
@@ -45,6 +46,7 @@ void Search::step(Budget budget) noexcept {
       --left;
     }
   }
+  last_slice_was_full_ = left <= 0;
 }
 
 SliceKind Search::kind() const noexcept {

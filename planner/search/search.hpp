@@ -1,5 +1,5 @@
-// One search on given tables: the paper's colony alone, or a short one and then the improvement of its best plan. Several
-// may work on the same tables, each with a seed of its own, and learn of each other's best plans.
+// One search on given tables: the paper's colony alone, or a short one and then the improvement of its best plan.
+// Several may work on the same tables, each with a seed of its own, and learn of each other's best plans.
 #pragma once
 
 #include <array>
@@ -42,6 +42,8 @@ class Search {
   /// done.
   void step(Budget budget) noexcept;
   [[nodiscard]] SliceKind last_slice() const noexcept { return last_slice_; }
+  /// The last slice used up its budget: it did not end early, with its kind or with the search.
+  [[nodiscard]] bool last_slice_was_full() const noexcept { return last_slice_was_full_; }
   [[nodiscard]] Progress progress() const noexcept;
 
   /// The best plan so far: complete plans by cost (EST with sub-priors, else ET in the paper's profile and ET_c in the
@@ -66,6 +68,7 @@ class Search {
   bool improving_ = false;
   bool ready_ = false;
   SliceKind last_slice_ = SliceKind::kNone;
+  bool last_slice_was_full_ = false;
 
   friend class Planner;  // lists the sizes of its parts
 };

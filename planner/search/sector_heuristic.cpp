@@ -37,7 +37,8 @@ void SectorHeuristic::open() noexcept {
     std::fill_n(whole_[index(m)].begin(), tiles_, Mass{});
     for (const Cell c : belief.cells_with_mass()) {
       const int tile = cells.row(c) / kTile * columns_ + cells.column(c) / kTile;
-      whole_[index(m)][index(tile)] += belief.has_sub_priors ? belief.sub_mass[index(m)][index(c)] : belief.mass[index(c)];
+      whole_[index(m)][index(tile)] +=
+          belief.has_sub_priors ? belief.sub_mass[index(m)][index(c)] : belief.mass[index(c)];
     }
   }
 }
@@ -52,7 +53,8 @@ void SectorHeuristic::take(Cell c) noexcept {
   const Belief& belief = world_.belief;
   const int tile = world_.cells.row(c) / kTile * columns_ + world_.cells.column(c) / kTile;
   for (int m = 0; m < priors_; ++m) {
-    unseen_[index(m)][index(tile)] -= belief.has_sub_priors ? belief.sub_mass[index(m)][index(c)] : belief.mass[index(c)];
+    unseen_[index(m)][index(tile)] -=
+        belief.has_sub_priors ? belief.sub_mass[index(m)][index(c)] : belief.mass[index(c)];
   }
 }
 
@@ -133,8 +135,9 @@ int SectorHeuristic::advance(int tiles) noexcept {
         const std::int64_t ey = dy - way.dy;
         const std::int64_t squared = (ex * ex + ey * ey) * 32 / spacing_units2_;
         const std::int32_t discount =
-            squared < kDiscounts ? near_discount_[static_cast<std::size_t>(squared)]
-                                 : far_discount_[static_cast<std::size_t>(std::min<std::int64_t>(squared / 64, kDiscounts - 1))];
+            squared < kDiscounts
+                ? near_discount_[static_cast<std::size_t>(squared)]
+                : far_discount_[static_cast<std::size_t>(std::min<std::int64_t>(squared / 64, kDiscounts - 1))];
 #if IVO_PLANNER_FIXED
         sums_[i] += static_cast<std::uint64_t>(mass.raw()) * static_cast<std::uint64_t>(discount);
 #else

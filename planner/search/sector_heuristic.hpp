@@ -1,7 +1,7 @@
 // eta_MTS, "regions of probability in different directions" (paper, "Sub-prior MTS-ACO"; the source gives no public
 // formula: this is a reading, model.md "Search (MMAS)"): the unseen mass in the sector 22.5 degrees to each side of the
-// way to a neighbour, apex here, each part discounted by 0.8^(its distance to the neighbour in units of h), over the length
-// of the way, at least 1e-6 of it. Cells are taken 8 x 8 at the middle of their tile.
+// way to a neighbour, apex here, each part discounted by 0.8^(its distance to the neighbour in units of h), over the
+// length of the way, at least 1e-6 of it. Cells are taken 8 x 8 at the middle of their tile.
 #pragma once
 
 #include <array>
@@ -40,7 +40,7 @@ class SectorHeuristic {
   static constexpr int kTile = 8;
   static constexpr int kTilesMost = limits::kCells / 16 + 64;
   static constexpr int kNeighbours = 128;
-  static constexpr int kBins = 64;       // of directions
+  static constexpr int kBins = 64;  // of directions
   static constexpr int kDiscounts = 8192;
   static constexpr int kUnitsACell = 16;  // of length
 #if IVO_PLANNER_FIXED
@@ -66,8 +66,9 @@ class SectorHeuristic {
   double units_a_metre_ = 0.0;
   std::array<std::array<Mass, kTilesMost>, limits::kAgents> whole_{};
   std::array<std::array<Mass, kTilesMost>, limits::kAgents> unseen_{};
-  std::array<std::int32_t, kDiscounts> near_discount_{};  // by squared distance, 1/32 h^2 apart; 15 bits behind the point
-  std::array<std::int32_t, kDiscounts> far_discount_{};   // likewise, 2 h^2 apart
+  std::array<std::int32_t, kDiscounts>
+      near_discount_{};  // by squared distance, 1/32 h^2 apart; 15 bits behind the point
+  std::array<std::int32_t, kDiscounts> far_discount_{};  // likewise, 2 h^2 apart
   std::int64_t spacing_units2_ = 1;
 
   int tile_ = 0;

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/search/work.hpp"
 #include "planner/world/visibility.hpp"
 
 namespace ivo::planner {
 namespace {
 
 constexpr int kQ = 256;  // parts of a tick
+constexpr int kAll = 1 << 30;
 
 }  // namespace
 
@@ -67,7 +69,7 @@ bool SegmentPool::open() noexcept {
   return true;
 }
 
-bool SegmentPool::free(int agent, const Place& from, const Place& to, int& work) const noexcept {
+bool SegmentPool::proved(int agent, const Place& from, const Place& to, int& work) const noexcept {
   if (from.node >= 0 && to.node >= 0) {
     if (from.node == to.node) {
       return true;
@@ -100,8 +102,9 @@ bool SegmentPool::free(int agent, const Place& from, const Place& to, int& work)
 #else
   work += 1 + static_cast<int>(std::abs(b.y_m - a.y_m) / world_.map.resolution_m);
   return swept_disc_is_free(
-      world_.map, static_cast<ClassSet>(obstacle_classes(world_.map.classes) | restricted_classes(world_.map.classes, body.kind)), a, b,
-      radius_m);
+      world_.map,
+      static_cast<ClassSet>(obstacle_classes(world_.map.classes) | restricted_classes(world_.map.classes, body.kind)),
+      a, b, radius_m);
 #endif
 }
 
@@ -109,7 +112,7 @@ std::int32_t SegmentPool::begin(int agent, const Place& from, const Place& to, i
   const Metres length = distance(from.spot, to.spot);
   const std::int64_t ticks = whole_ticks(length);
   const auto parts = static_cast<std::int32_t>(std::max<std::int64_t>(1, (ticks + part_ticks_ - 1) / part_ticks_));
-  if (free_segment_ < 0 || free_parts_ < parts || !free(agent, from, to, work)) {
+  if (free_segment_ < 0 || free_parts_ < parts || !proved(agent, from, to, work)) {
     return -1;
   }
   making_ = free_segment_;
@@ -128,29 +131,38 @@ std::int32_t SegmentPool::begin(int agent, const Place& from, const Place& to, i
   free_parts_ -= parts;
   next_part_ = segment.first_part;
   parts_made_ = 0;
+  row_ = -1;
+  work += work::kSegment + work::kPart * parts / 8;
   agent_ = agent;
   return making_;
 }
 
-bool SegmentPool::make_part(int& work) noexcept {
+bool SegmentPool::make_rows(int& work, int enough) noexcept {
   const Segment& segment = segments_[index(making_)];
-  const Spot a = segment.from.spot;
-  const Spot b = segment.to.spot;
-  const auto at = [&](std::int32_t k) {
-    return Spot{a.x + static_cast<std::int32_t>(std::int64_t{b.x - a.x} * k / segment.parts),
-                a.y + static_cast<std::int32_t>(std::int64_t{b.y - a.y} * k / segment.parts)};
-  };
-  Part& part = parts_[index(next_part_)];
-  sweep(agent_, at(parts_made_), at(parts_made_ + 1), part, work);
-  next_part_ = part.next;
-  return ++parts_made_ == segment.parts;
+  while (work < enough) {
+    Part& part = parts_[index(next_part_)];
+    if (row_ < 0) {
+      begin_part(part, work);
+      row_ = 0;
+    }
+    for (; row_ < part.rows && work < enough; ++row_) {
+      part.words[index(row_)] = sweep_row(part, row_, work);
+    }
+    if (row_ == part.rows) {
+      row_ = -1;
+      next_part_ = part.next;
+      if (++parts_made_ == segment.parts) {
+        return true;
+      }
+    }
+  }
+  return false;
 }
 
 std::int32_t SegmentPool::make(int agent, const Place& from, const Place& to, int& work) noexcept {
   const std::int32_t id = begin(agent, from, to, work);
   if (id >= 0) {
-    while (!make_part(work)) {
-    }
+    (void)make_rows(work, kAll);
   }
   return id;
 }
@@ -164,103 +176,118 @@ void SegmentPool::release(std::int32_t id) noexcept {
   free_segment_ = id;
 }
 
-// The cells whose centres lie in the disc swept from p to q, a run a row.
-void SegmentPool::sweep(int agent, Spot p, Spot q, Part& part, int& work) noexcept {
-  const Disc& disc = discs_[index(disc_of(agent))];
-  const std::int32_t radius = disc.radius;
-  const std::int64_t dx = q.x - p.x;
-  const std::int64_t dy = q.y - p.y;
-  const std::int64_t length = whole_ticks(distance(p, q));
-  const auto row_of = [&](std::int64_t ticks) {
+void SegmentPool::begin_part(Part& part, int& work) noexcept {
+  const Segment& segment = segments_[index(making_)];
+  const Spot a = segment.from.spot;
+  const Spot b = segment.to.spot;
+  const auto at = [&](std::int32_t k) {
+    return Spot{a.x + static_cast<std::int32_t>(std::int64_t{b.x - a.x} * k / segment.parts),
+                a.y + static_cast<std::int32_t>(std::int64_t{b.y - a.y} * k / segment.parts)};
+  };
+  Sweep& sweep = sweep_;
+  sweep.p = at(parts_made_);
+  sweep.q = at(parts_made_ + 1);
+  const auto [low_x, high_x] = std::minmax(sweep.p.x, sweep.q.x);
+  const auto [low_y, high_y] = std::minmax(sweep.p.y, sweep.q.y);
+  const std::int32_t radius = discs_[index(disc_of(agent_))].radius;
+  const auto cell_at = [&](std::int64_t ticks) {
     return static_cast<std::int32_t>((std::max<std::int64_t>(0, ticks) * kQ * inverse_q_) >> 40);
   };
-  const std::int32_t first_row = row_of(std::min(p.y, q.y) - radius);
-  const std::int32_t last_row = std::min(world_.cells.rows() - 1, row_of(std::max(p.y, q.y) + radius));
-  const std::int32_t first_column = row_of(std::min(p.x, q.x) - radius);
-  part.first_row = first_row;
-  part.first_byte = first_column / 8;
-  part.rows = std::min(last_row - first_row + 1, Part::kRows);
+  const Cells& cells = world_.cells;
+  const CellWindow window{cell_at(low_x - radius), cell_at(low_y - radius),
+                          std::min(cells.columns() - 1, cell_at(high_x + radius)),
+                          std::min(cells.rows() - 1, cell_at(high_y + radius))};
+  part.first_row = window.first_row;
+  part.first_byte = window.first_column / 8;
+  part.rows = std::clamp(window.last_row - window.first_row + 1, 1, Part::kRows);
+  sweep.hides =
+      window.first_column <= window.last_column && window.first_row <= window.last_row && cells.any_occluder(window);
   // The disc's two tangents: from where it touches at p to where it touches at q.
-  const std::int64_t nx = length > 0 ? -dy * radius / length : 0;
-  const std::int64_t ny = length > 0 ? dx * radius / length : 0;
-  const std::int64_t slope = dy != 0 ? (dx << 20) / dy : 0;
-  const int low_bit = part.first_byte * 8;
-  for (std::int32_t i = 0; i < part.rows; ++i) {
-    const std::int64_t y = ((2 * (first_row + std::int64_t{i}) + 1) * cell_q_) / (2 * kQ);
-    std::int64_t low = INT64_MAX;
-    std::int64_t high = INT64_MIN;
-    const auto widen = [&](std::int64_t a, std::int64_t b) {
-      low = std::min(low, a);
-      high = std::max(high, b);
-    };
-    for (const Spot centre : {p, q}) {
-      const std::int64_t off = std::abs(y - centre.y);
-      if (off <= radius) {
-        const std::int64_t half = disc.half[static_cast<std::size_t>(off)];
-        widen(centre.x - half, centre.x + half);
-      }
-    }
-    if (dy != 0) {
-      for (const std::int64_t side : {std::int64_t{1}, std::int64_t{-1}}) {
-        const std::int64_t from_y = p.y + side * ny;
-        const std::int64_t up = y - from_y;
-        if (dy > 0 ? up >= 0 && up <= dy : up <= 0 && up >= dy) {
-          const std::int64_t x = p.x + side * nx + ((up * slope) >> 20);
-          widen(x, x);
-        }
-      }
-    } else if (std::abs(y - p.y) <= radius) {
-      widen(std::min(p.x, q.x), std::max(p.x, q.x));
-    }
-    std::uint64_t word = 0;
-    if (low <= high) {
-      // Columns whose centres lie between: (column + 1/2) cell >= low, <= high.
-      const std::int64_t first =
-          std::max<std::int64_t>(0, ((std::max<std::int64_t>(0, 2 * low * kQ + cell_q_ - 1) * inverse_q_) >> 41));
-      const std::int64_t last = std::min<std::int64_t>(
-          world_.cells.columns() - 1, ((std::max<std::int64_t>(-1, 2 * high * kQ + cell_q_) * inverse_q_) >> 41) - 1);
-      const std::int64_t a = std::max<std::int64_t>(0, first - low_bit);
-      const std::int64_t b = std::min<std::int64_t>(63, last - low_bit);
-      if (a <= b) {
-        word = (~std::uint64_t{0} >> static_cast<unsigned>(63 - (b - a))) << static_cast<unsigned>(a);
-      }
-    }
-    part.words[index(i)] = word;
-  }
-  work += part.rows;
-  const CellWindow window{first_column, first_row,
-                          std::min(world_.cells.columns() - 1, row_of(std::max(p.x, q.x) + radius)), last_row};
-  if (window.first_column <= window.last_column && window.first_row <= window.last_row &&
-      world_.cells.any_occluder(window)) {
-    hide(agent, p, q, part, work);
-  }
+  const std::int64_t dx = sweep.q.x - sweep.p.x;
+  const std::int64_t dy = sweep.q.y - sweep.p.y;
+  const std::int64_t length = whole_ticks(distance(sweep.p, sweep.q));
+  sweep.side = length > 0 ? Spot{static_cast<std::int32_t>(-dy * radius / length),
+                                 static_cast<std::int32_t>(dx * radius / length)}
+                          : Spot{};
+  sweep.slope = dy != 0 ? (dx << 20) / dy : 0;
+  work += work::kPart;
 }
 
-// Keeps the cells that are seen from one of a few places on the way, at most half a sight radius apart.
-void SegmentPool::hide(int agent, Spot p, Spot q, Part& part, int& work) noexcept {
-  const double radius_m = world_.bodies[index(agent)].sight_radius_m;
-  const int looks = 3;
-  std::array<std::uint64_t, Part::kRows> kept{};
-  for (int k = 0; k < looks; ++k) {
-    const Point from = point_of({p.x + (q.x - p.x) * k / (looks - 1), p.y + (q.y - p.y) * k / (looks - 1)});
-    if (k > 0 && p == q) {
+// The cells of a row whose centres lie in the disc swept from p to q.
+std::uint64_t SegmentPool::sweep_row(const Part& part, std::int32_t i, int& work) noexcept {
+  const auto& [p, q, side, slope, hides] = sweep_;
+  const Disc& disc = discs_[index(disc_of(agent_))];
+  const std::int64_t y = ((2 * (part.first_row + std::int64_t{i}) + 1) * cell_q_) / (2 * kQ);
+  std::int64_t low = INT64_MAX;
+  std::int64_t high = INT64_MIN;
+  const auto widen = [&](std::int64_t a, std::int64_t b) {
+    low = std::min(low, a);
+    high = std::max(high, b);
+  };
+  for (const Spot centre : {p, q}) {
+    const std::int64_t off = std::abs(y - centre.y);
+    if (off <= disc.radius) {
+      const std::int64_t half = disc.half[static_cast<std::size_t>(off)];
+      widen(centre.x - half, centre.x + half);
+    }
+  }
+  const std::int64_t dy = q.y - p.y;
+  if (dy != 0) {
+    for (const int sign : {1, -1}) {
+      const std::int64_t up = y - (p.y + sign * side.y);
+      if (dy > 0 ? up >= 0 && up <= dy : up <= 0 && up >= dy) {
+        const std::int64_t x = p.x + sign * side.x + ((up * slope) >> 20);
+        widen(x, x);
+      }
+    }
+  } else if (std::abs(y - p.y) <= disc.radius) {
+    widen(std::min(p.x, q.x), std::max(p.x, q.x));
+  }
+  work += work::kSweptRow;
+  if (low > high) {
+    return 0;
+  }
+  // Columns whose centres lie between: (column + 1/2) cell >= low, <= high.
+  const std::int64_t first = (std::max<std::int64_t>(0, 2 * low * kQ + cell_q_ - 1) * inverse_q_) >> 41;
+  const std::int64_t last = std::min<std::int64_t>(
+      world_.cells.columns() - 1, ((std::max<std::int64_t>(-1, 2 * high * kQ + cell_q_) * inverse_q_) >> 41) - 1);
+  const std::int64_t a = std::max<std::int64_t>(0, first - part.first_byte * 8);
+  const std::int64_t b = std::min<std::int64_t>(63, last - part.first_byte * 8);
+  if (a > b) {
+    return 0;
+  }
+  const std::uint64_t word = (~std::uint64_t{0} >> static_cast<unsigned>(63 - (b - a))) << static_cast<unsigned>(a);
+  return hides ? seen_of(word, part, i, work) : word;
+}
+
+// Keeps the cells that are seen from one of three places on the way.
+std::uint64_t SegmentPool::seen_of(std::uint64_t word, const Part& part, std::int32_t i, int& work) const noexcept {
+  constexpr int kLooks = 3;
+  const Cells& cells = world_.cells;
+  const double radius_m = world_.bodies[index(agent_)].sight_radius_m + 0.5 * cells.cell_m();
+  const int row = part.first_row + i;
+  std::uint64_t kept = 0;
+  for (int k = 0; k < kLooks; ++k) {
+    const Spot spot{sweep_.p.x + (sweep_.q.x - sweep_.p.x) * k / (kLooks - 1),
+                    sweep_.p.y + (sweep_.q.y - sweep_.p.y) * k / (kLooks - 1)};
+    const Point from = point_of(spot);
+    for_each_bit(word & ~kept, [&](int bit) {
+      const int column = part.first_byte * 8 + bit;
+      work += 1;
+      if (!within_radius(cells, from, column, row, radius_m)) {
+        return;
+      }
+      work += work::ray(std::abs(column - static_cast<int>(from.x_m / cells.cell_m())),
+                        std::abs(row - static_cast<int>(from.y_m / cells.cell_m())));
+      if (line_of_sight(cells, from, cells.at(column, row))) {
+        kept |= std::uint64_t{1} << static_cast<unsigned>(bit);
+      }
+    });
+    if (sweep_.p == sweep_.q) {
       break;
     }
-    for (std::int32_t i = 0; i < part.rows; ++i) {
-      const int row = part.first_row + i;
-      for_each_bit(part.words[index(i)] & ~kept[index(i)], [&](int bit) {
-        const int column = part.first_byte * 8 + bit;
-        if (within_radius(world_.cells, from, column, row, radius_m + 0.5 * world_.cells.cell_m()) &&
-            line_of_sight(world_.cells, from, world_.cells.at(column, row))) {
-          kept[index(i)] |= std::uint64_t{1} << static_cast<unsigned>(bit);
-        }
-      });
-      work += 8;
-    }
   }
-  for (std::int32_t i = 0; i < part.rows; ++i) {
-    part.words[index(i)] = kept[index(i)];
-  }
+  return kept;
 }
 
 }  // namespace ivo::planner

@@ -22,7 +22,7 @@ struct CostInterval {
 struct Tour {
   StaticVector<EdgePath, limits::kAgents> paths;
   bool complete = false;
-  Mass unseen{};       ///< exact
+  Mass unseen{};  ///< exact
   CostInterval cost;
   bool scored = false;  ///< exactly; then paths end where they last show something new, and the following holds
   std::array<Seconds, limits::kAgents> end_s{};

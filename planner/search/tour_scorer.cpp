@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "planner/search/work.hpp"
+
 namespace ivo::planner {
 
 void TourScorer::start(Tour& tour, double max_unseen_mass) noexcept {
@@ -26,16 +28,35 @@ int TourScorer::advance(int rows) noexcept {
   return 0;
 }
 
+void TourScorer::warm() noexcept {
+  const Graph& graph = world_.graph;
+  for (int m = 0; m < graph.agents(); ++m) {
+    for (Node n = 0; n < graph.nodes(); ++n) {
+      for (Edge e = graph.first_edge(n); e < graph.end_edge(n); ++e) {
+        if (!in(graph.open_to(e), m) || events_.ready(m, e)) {
+          continue;
+        }
+        if (!events_.has_room_for(m, e)) {
+          return;
+        }
+        while (!events_.ready(m, e)) {
+          (void)events_.prepare(m, n, e, 1 << 16);
+        }
+      }
+    }
+  }
+}
+
 int TourScorer::clear(int rows) noexcept {
-  constexpr int kCellsARow = 16;  // so many cost no more than a row of another kind
-  const int count = std::min(rows * kCellsARow, world_.cells.count() - row_);
+  using work::kCellsForgotten;
+  const int count = std::min(rows * kCellsForgotten, world_.cells.count() - row_);
   sightings_.clear(row_, count);
   row_ += count;
   if (row_ == world_.cells.count()) {
     phase_ = Phase::kReplay;
     begin_agent(0);
   }
-  return count / kCellsARow + 1;
+  return count / kCellsForgotten + 1;
 }
 
 int TourScorer::replay(int rows) noexcept {
@@ -50,7 +71,8 @@ int TourScorer::replay(int rows) noexcept {
   const auto events = events_.along(agent_, e);
   const Pace pace = world_.pace(agent_, e);
   const int end = std::min(static_cast<int>(events.size()), row_ + rows);
-  const int work = end - row_ + 1;
+  const int count = end - row_;
+  const int taken = sightings_.taken();
   const int agent = agent_;
   const Seconds begin_s = time_s_;
   for (int i = row_; i < end; ++i) {
@@ -58,6 +80,7 @@ int TourScorer::replay(int rows) noexcept {
     (void)sightings_.see(event.cell(), agent, begin_s + after_points(pace, event.point()));
   }
   row_ = end;
+  const int work = 1 + work::events_replayed(count, sightings_.taken() - taken);
   if (row_ == static_cast<int>(events.size())) {
     time_s_ += world_.seconds_along(agent_, e);
     at_ = world_.graph.head(e);
@@ -87,14 +110,14 @@ void TourScorer::begin_agent(int agent) noexcept {
 }
 
 int TourScorer::sum(int rows) noexcept {
-  const int count = std::min(rows, world_.belief.mass_cell_count - row_);
+  const int count = std::min(rows / 4 + 1, world_.belief.mass_cell_count - row_);
   expected_.add(world_.belief, sightings_, row_, count);
   row_ += count;
   if (row_ == world_.belief.mass_cell_count) {
     finish();
     phase_ = Phase::kDone;
   }
-  return count + 1;
+  return 1 + work::cells_summed(count, world_.belief.has_sub_priors);
 }
 
 void TourScorer::finish() noexcept {

@@ -22,6 +22,10 @@ class TourScorer {
     events_.clear();
   }
 
+  /// Makes the events of the edges beforehand, of as many as there is room for: the search then finds them ready. Cost:
+  /// each edge's cells.
+  void warm() noexcept;
+
   /// `tour` lasts until done().
   void start(Tour& tour, double max_unseen_mass) noexcept;
   /// Up to about `rows` table rows. Returns the work done.

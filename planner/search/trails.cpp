@@ -14,11 +14,10 @@ constexpr double kLog005 =
 #if IVO_PLANNER_FIXED
 constexpr Trail kOne = Trail{1} << kTrailBits;
 Trail trail_from(double value) noexcept { return static_cast<Trail>(value * kOne + 0.5); }
-Trail times(Trail a, Trail b) noexcept {
-  return static_cast<Trail>((static_cast<std::uint64_t>(a) * b) >> kTrailBits);
-}
+Trail times(Trail a, Trail b) noexcept { return static_cast<Trail>((static_cast<std::uint64_t>(a) * b) >> kTrailBits); }
 Trail inverse(Mass cost) noexcept {
-  return static_cast<Trail>((std::uint64_t{1} << (kTrailBits + Mass::kFraction)) / static_cast<std::uint64_t>(cost.raw()));
+  return static_cast<Trail>((std::uint64_t{1} << (kTrailBits + Mass::kFraction)) /
+                            static_cast<std::uint64_t>(cost.raw()));
 }
 #else
 constexpr Trail kOne = 1.0;
@@ -57,8 +56,7 @@ void Trails::start(const Graph& graph, double rho, int beta) noexcept {
         visibility_from(whole_power(graph.spacing_m() / std::max(graph.length_m(e), shortest_m), beta));
   }
   for (int agent = 0; agent < agents_; ++agent) {
-    min_over_max_[index(agent)] =
-        trail_from(min_over_max(graph.nodes_reached_by(agent), graph.edges_open_to(agent)));
+    min_over_max_[index(agent)] = trail_from(min_over_max(graph.nodes_reached_by(agent), graph.edges_open_to(agent)));
     raise_to_max(agent, 0, edges_);
   }
 }

@@ -1,5 +1,5 @@
-// How far from any obstacle a place surely is: a lower bound a cell, made once, so that most straight moves off the graph
-// are proved free by a few look-ups and only those near something need the exact test (collision.hpp).
+// How far from any obstacle a place surely is: a lower bound a cell, made once, so that most straight moves off the
+// graph are proved free by a few look-ups and only those near something need the exact test (collision.hpp).
 #pragma once
 
 #include <array>
@@ -17,8 +17,8 @@ class ClearanceMap {
   /// For pixels of a class in `blocked`. Cost: the pixels, and 21 look-ups a cell.
   void build(const SegmentedMap& map, const Cells& cells, ClassSet blocked) noexcept;
 
-  /// A distance in ticks that no obstacle is nearer than; at most about 10 cells, 0 near an obstacle. The map's border is
-  /// not counted.
+  /// A distance in ticks that no obstacle is nearer than; at most about 10 cells, 0 near an obstacle. The map's border
+  /// is not counted.
   [[nodiscard]] int at_least(Spot s) const noexcept {
     const int column = clamp_to(s.x / cell_ticks_, columns_);
     const int row = clamp_to(s.y / cell_ticks_, rows_);

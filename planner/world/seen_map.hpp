@@ -1,5 +1,5 @@
-// Which cells somebody has seen, one bit each, and what a look adds to them. A look comes as swaths: windows of 64 columns,
-// so that a row of one costs a load, a mask and a store.
+// Which cells somebody has seen, one bit each, and what a look adds to them. A look comes as swaths: windows of 64
+// columns, so that a row of one costs a load, a mask and a store.
 #pragma once
 
 #include <array>
@@ -18,8 +18,8 @@ static_assert(std::endian::native == std::endian::little, "a window is read as o
 /// What is seen from some consecutive sight points of a move: a window of 64 columns, one word a row.
 struct Swath {
   std::int32_t first_row = 0;
-  std::int32_t first_byte = 0;   ///< its first column is 8 times this
-  std::int32_t first_word = 0;   ///< of its rows, in the words of whoever made it
+  std::int32_t first_byte = 0;  ///< its first column is 8 times this
+  std::int32_t first_word = 0;  ///< of its rows, in the words of whoever made it
   std::int16_t rows = 0;
   std::int16_t first_point = 0;  ///< the cells of the window seen from these points, both included
   std::int16_t last_point = 0;
@@ -123,9 +123,7 @@ class SeenMap {
   [[nodiscard]] static constexpr std::uint8_t bit(int column) noexcept {
     return static_cast<std::uint8_t>(1U << static_cast<unsigned>(column & 7));
   }
-  [[nodiscard]] std::uint8_t& byte(int column, int row) noexcept {
-    return bytes_[index(row * stride_ + column / 8)];
-  }
+  [[nodiscard]] std::uint8_t& byte(int column, int row) noexcept { return bytes_[index(row * stride_ + column / 8)]; }
 
   int columns_ = 0;
   int stride_ = 0;

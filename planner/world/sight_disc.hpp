@@ -18,7 +18,8 @@ class SightDisc {
     int last = -1;
   };
 
-  SightDisc(const Cells& cells, Point from, double radius_m) noexcept : cells_(cells), from_(from), radius_m_(radius_m) {
+  SightDisc(const Cells& cells, Point from, double radius_m) noexcept
+      : cells_(cells), from_(from), radius_m_(radius_m) {
     const double size = cells.cell_m();
     first_row_ = std::max(0, static_cast<int>((from.y_m - radius_m) / size) - 1);
     last_row_ = std::min(cells.rows() - 1, static_cast<int>((from.y_m + radius_m) / size) + 1);

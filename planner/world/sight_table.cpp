@@ -87,8 +87,7 @@ Refusal SightTable::add_edges(const Cells& cells, const Graph& graph, int layer)
       against_[index(e)] = false;
       against_[index(back)] = true;
       records[index(e)] = {swath_count_, 0};
-      const auto agents =
-          static_cast<AgentSet>((graph.open_to(e) | graph.open_to(back)) & layer_agents_[index(layer)]);
+      const auto agents = static_cast<AgentSet>((graph.open_to(e) | graph.open_to(back)) & layer_agents_[index(layer)]);
       if (agents != 0) {
         if (const Refusal refusal = add_edge(cells, graph.position(n), graph.position(head), points,
                                              layer_radius_m_[index(layer)], records[index(e)], agents)) {

@@ -25,9 +25,7 @@ struct SightView {
 
   [[nodiscard]] std::size_t size() const noexcept { return swaths.size(); }
   /// The i-th swath on the way.
-  [[nodiscard]] const Swath& at(std::size_t i) const noexcept {
-    return swaths[reversed ? swaths.size() - 1 - i : i];
-  }
+  [[nodiscard]] const Swath& at(std::size_t i) const noexcept { return swaths[reversed ? swaths.size() - 1 - i : i]; }
 };
 
 class SightTable {
@@ -52,7 +50,9 @@ class SightTable {
   }
   /// n of visibility.hpp: the edge's last sight point.
   [[nodiscard]] int points(Edge e) const noexcept { return points_[index(e)]; }
-  [[nodiscard]] double radius_m(int agent) const noexcept { return layer_radius_m_[index(layer_of_agent_[index(agent)])]; }
+  [[nodiscard]] double radius_m(int agent) const noexcept {
+    return layer_radius_m_[index(layer_of_agent_[index(agent)])];
+  }
   /// Agents of one radius have one layer.
   [[nodiscard]] int layer(int agent) const noexcept { return layer_of_agent_[index(agent)]; }
   /// Agents that can see the cell from a node or an edge that they can get to.

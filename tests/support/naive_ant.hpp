@@ -88,7 +88,7 @@ class NaiveAnt {
       const double dy = (row + 0.5) * size - from.y_m;
       for (int column = 0; column < world_.cells.columns(); ++column, ++c) {
         const double dx = (column + 0.5) * size - from.x_m;
-        if (dx * dx + dy * dy > radius_m * radius_m + 1e-9 || world_.belief.mass[c] <= 0.0 ||
+        if (dx * dx + dy * dy > radius_m * radius_m + 1e-9 || planner::to_double(world_.belief.mass[c]) <= 0.0 ||
             !planner::line_of_sight(world_.cells, from, static_cast<planner::Cell>(c))) {
           continue;
         }
@@ -96,7 +96,7 @@ class NaiveAnt {
         first_s = std::min(first_s, time_s);
         if (!seen_[c]) {
           seen_[c] = true;
-          unseen_mass_ -= world_.belief.mass[c];
+          unseen_mass_ -= planner::to_double(world_.belief.mass[c]);
         }
       }
     }
@@ -200,7 +200,7 @@ class NaiveAnt {
 
   [[nodiscard]] bool shows_something_new(std::size_t m, Point from) const {
     for (planner::Cell c = 0; c < world_.cells.count(); ++c) {
-      if (!seen_[planner::index(c)] && world_.belief.mass[planner::index(c)] > 0.0 &&
+      if (!seen_[planner::index(c)] && planner::to_double(world_.belief.mass[planner::index(c)]) > 0.0 &&
           planner::within_radius(world_.cells, from, c, world_.problem.agents[m].sight_radius_m) &&
           planner::line_of_sight(world_.cells, from, c)) {
         return true;
@@ -252,13 +252,14 @@ class NaiveAnt {
       tour.end_s[first] = std::max(tour.end_s[first], time_s);
       tour.end_s[credited] = std::max(tour.end_s[credited], agents_[credited].first_seen_s[c]);
       const double terms = std::max(step_of(time_s), 1) - 1;  // of Eq. 8 in which the cell is still unseen
-      seen += world_.belief.mass[c];
-      mass_seconds += world_.belief.mass[c] * time_s;
-      mass_steps += world_.belief.mass[c] * terms;
+      seen += planner::to_double(world_.belief.mass[c]);
+      mass_seconds += planner::to_double(world_.belief.mass[c]) * time_s;
+      mass_steps += planner::to_double(world_.belief.mass[c]) * terms;
       if (world_.belief.has_sub_priors) {
-        sub_mass += world_.belief.sub_mass[credited][c];
-        sub_mass_all_steps += world_.belief.sub_mass[credited][c] * terms;
-        sub_mass_steps += world_.belief.sub_mass[credited][c] * std::min<double>(terms, world_.belief.sub_prior_steps);
+        sub_mass += planner::to_double(world_.belief.sub_mass[credited][c]);
+        sub_mass_all_steps += planner::to_double(world_.belief.sub_mass[credited][c]) * terms;
+        sub_mass_steps += planner::to_double(world_.belief.sub_mass[credited][c]) *
+                          std::min<double>(terms, world_.belief.sub_prior_steps);
       }
     }
     planner::PlanScore& score = tour.score;

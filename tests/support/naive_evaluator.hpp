@@ -52,8 +52,21 @@ class NaiveEvaluator {
     score.horizon_s = horizon_s_;
     score.expected_time_s = expected_time_s();
     score.expected_time_continuous_s = integral_of_the_unseen_s(score.unseen_mass);
-    score.expected_sub_prior_time_s = mission_.sub_priors.empty() ? 0.0 : expected_sub_prior_time_s();
+    score.expected_sub_prior_time_s =
+        mission_.sub_priors.empty() ? 0.0 : expected_sub_prior_time_s(mission_.sub_prior_steps);
     return score;
+  }
+
+  /// Eq. 10 with K = `steps`.
+  [[nodiscard]] double expected_sub_prior_time_s(int steps) const {
+    std::vector<std::vector<double>> left = mission_.sub_priors;
+    double found = 0.0;
+    double expected_s = 0.0;
+    for (int k = 0; k <= steps; ++k) {
+      found += mission_.reading == SubPriorReading::kTeam ? found_by_the_team(k, left) : found_on_their_own(k, left);
+      expected_s += k >= 1 ? (1.0 - found) * kStep : 0.0;
+    }
+    return expected_s;
   }
 
   /// When each agent last sees something new: a cell that nobody saw before, or one with which Eq. 5 credits it.
@@ -159,18 +172,6 @@ class NaiveEvaluator {
       for (std::size_t c = 0; c < posterior.size(); ++c) {
         posterior[c] = who[c] >= 0 || missed <= 0.0 ? 0.0 : posterior[c] / missed;
       }
-      expected_s += k >= 1 ? (1.0 - found) * kStep : 0.0;
-    }
-    return expected_s;
-  }
-
-  // Eq. 10.
-  [[nodiscard]] double expected_sub_prior_time_s() const {
-    std::vector<std::vector<double>> left = mission_.sub_priors;
-    double found = 0.0;
-    double expected_s = 0.0;
-    for (int k = 0; k <= mission_.sub_prior_steps; ++k) {
-      found += mission_.reading == SubPriorReading::kTeam ? found_by_the_team(k, left) : found_on_their_own(k, left);
       expected_s += k >= 1 ? (1.0 - found) * kStep : 0.0;
     }
     return expected_s;

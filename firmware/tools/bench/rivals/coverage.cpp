@@ -11,8 +11,9 @@ Coverage::Coverage(const planner::Planner& prepared, const planner::SearchProble
   constexpr double kPieceM = 1.0;
   const std::span<const planner::Cell> cells = belief_.cells_with_mass();
   const double first = planner::to_double(belief_.mass[planner::index(cells.front())]);
-  const bool uniform = std::all_of(cells.begin(), cells.end(),
-                                   [&](planner::Cell c) { return planner::to_double(belief_.mass[planner::index(c)]) == first; });
+  const bool uniform = std::all_of(cells.begin(), cells.end(), [&](planner::Cell c) {
+    return planner::to_double(belief_.mass[planner::index(c)]) == first;
+  });
   uniform_mass_ = uniform ? first : 0.0;
 
   const planner::Graph& graph = prepared.graph();

@@ -7,6 +7,8 @@
 #include <random>
 #include <vector>
 
+#include "tests/support/agreement.hpp"
+#include "tests/support/masses.hpp"
 #include "tests/support/random_search.hpp"
 #include "tests/support/shared_planner.hpp"
 
@@ -38,14 +40,14 @@ class PreferencesTest : public testing::Test {
   [[nodiscard]] double share(int agent, double x_m, double y_m) const {
     const Cells& cells = planner_.cells();
     const Cell c = cells.at(static_cast<int>(x_m / 0.5), static_cast<int>(y_m / 0.5));
-    return planner_.belief().sub_mass[static_cast<std::size_t>(agent)][static_cast<std::size_t>(c)];
+    return to_double(planner_.belief().sub_mass[static_cast<std::size_t>(agent)][static_cast<std::size_t>(c)]);
   }
 
   void expect_each_sums_to_its_part() const {
     const Belief& belief = planner_.belief();
     for (int m = 0; m < belief.agents; ++m) {
-      const auto& sub = belief.sub_mass[static_cast<std::size_t>(m)];
-      EXPECT_NEAR(std::accumulate(sub.begin(), sub.begin() + belief.cells, 0.0), 1.0 / belief.agents, 1e-12);
+      const auto sub = test::as_doubles(belief.sub_mass[static_cast<std::size_t>(m)], belief.cells);
+      EXPECT_NEAR(std::accumulate(sub.begin(), sub.end(), 0.0), 1.0 / belief.agents, test::sum_agreement(belief.cells));
     }
   }
 
@@ -64,10 +66,10 @@ TEST_F(PreferencesTest, OfOneLeaveTheRestToTheOther) {
   prefers(0, test::rectangle(0, 0, 4, 8));  // 128 cells of 512
   prepare();
   EXPECT_TRUE(planner_.belief().has_sub_priors);
-  EXPECT_NEAR(share(0, 1, 1), 0.5 / 128, 1e-15);
+  EXPECT_NEAR(share(0, 1, 1), 0.5 / 128, test::kMassAgreement);
   EXPECT_EQ(share(1, 1, 1), 0.0);
   EXPECT_EQ(share(0, 9, 1), 0.0);
-  EXPECT_NEAR(share(1, 9, 1), 0.5 / 384, 1e-15);
+  EXPECT_NEAR(share(1, 9, 1), 0.5 / 384, test::kMassAgreement);
   expect_each_sums_to_its_part();
 }
 
@@ -75,10 +77,10 @@ TEST_F(PreferencesTest, OfAllShareTheRestEqually) {
   prefers(0, test::rectangle(0, 0, 4, 8));    // 128 cells
   prefers(1, test::rectangle(12, 0, 16, 4));  // 64 cells; 320 are left
   prepare();
-  EXPECT_NEAR(share(0, 1, 1), 0.5 / (128 + 160), 1e-15);
-  EXPECT_NEAR(share(0, 8, 1), 0.25 / (128 + 160), 1e-15);
-  EXPECT_NEAR(share(1, 13, 1), 0.5 / (64 + 160), 1e-15);
-  EXPECT_NEAR(share(1, 8, 1), 0.25 / (64 + 160), 1e-15);
+  EXPECT_NEAR(share(0, 1, 1), 0.5 / (128 + 160), test::kMassAgreement);
+  EXPECT_NEAR(share(0, 8, 1), 0.25 / (128 + 160), test::kMassAgreement);
+  EXPECT_NEAR(share(1, 13, 1), 0.5 / (64 + 160), test::kMassAgreement);
+  EXPECT_NEAR(share(1, 8, 1), 0.25 / (64 + 160), test::kMassAgreement);
   EXPECT_EQ(share(0, 13, 1), 0.0);
   EXPECT_EQ(share(1, 1, 1), 0.0);
   expect_each_sums_to_its_part();
@@ -89,11 +91,11 @@ TEST_F(PreferencesTest, ThatOverlapShareTheOverlapEqually) {
   prefers(0, test::rectangle(0, 0, 8, 8));   // 256 cells
   prefers(1, test::rectangle(4, 0, 12, 8));  // 256 cells, 128 of them the first one's too
   prepare();
-  EXPECT_NEAR(share(0, 1, 1), 1.0 / 3 / (128 + 64), 1e-15);
-  EXPECT_NEAR(share(0, 5, 1), 0.5 / 3 / (128 + 64), 1e-15);
-  EXPECT_NEAR(share(1, 5, 1), 0.5 / 3 / (128 + 64), 1e-15);
+  EXPECT_NEAR(share(0, 1, 1), 1.0 / 3 / (128 + 64), test::kMassAgreement);
+  EXPECT_NEAR(share(0, 5, 1), 0.5 / 3 / (128 + 64), test::kMassAgreement);
+  EXPECT_NEAR(share(1, 5, 1), 0.5 / 3 / (128 + 64), test::kMassAgreement);
   EXPECT_EQ(share(2, 5, 1), 0.0);
-  EXPECT_NEAR(share(2, 13, 1), 1.0 / 3 / 128, 1e-15);  // the only one without a preference
+  EXPECT_NEAR(share(2, 13, 1), 1.0 / 3 / 128, test::kMassAgreement);  // the only one without a preference
   expect_each_sums_to_its_part();
 }
 
@@ -101,8 +103,8 @@ TEST_F(PreferencesTest, OfOneAgentCountACellOnceThoughItsAreasOverlap) {
   prefers(0, test::rectangle(0, 0, 4, 8));
   prefers(0, test::rectangle(2, 0, 6, 8));
   prepare();
-  EXPECT_NEAR(share(0, 1, 1), 0.5 / 192, 1e-15);
-  EXPECT_NEAR(share(0, 3, 1), 0.5 / 192, 1e-15);
+  EXPECT_NEAR(share(0, 1, 1), 0.5 / 192, test::kMassAgreement);
+  EXPECT_NEAR(share(0, 3, 1), 0.5 / 192, test::kMassAgreement);
   expect_each_sums_to_its_part();
 }
 
@@ -110,8 +112,8 @@ TEST_F(PreferencesTest, ThatTakeEverythingLeaveTheOtherThePriorItselfAndSaySo) {
   prefers(0, test::rectangle(-1, -1, 17, 9));
   prepare();
   EXPECT_EQ(planner_.left_without_sub_prior(), agent_bit(1));
-  EXPECT_NEAR(share(1, 1, 1), 0.5 / 512, 1e-15);
-  EXPECT_NEAR(share(0, 1, 1), 0.5 / 512, 1e-15);
+  EXPECT_NEAR(share(1, 1, 1), 0.5 / 512, test::kMassAgreement);
+  EXPECT_NEAR(share(0, 1, 1), 0.5 / 512, test::kMassAgreement);
   expect_each_sums_to_its_part();
 }
 
@@ -184,14 +186,14 @@ std::vector<std::vector<double>> slow_sub_priors(const Planner& planner, const S
     }
     for (const std::size_t m : takers) {
       const bool observes = in(planner.sight().observable_by(c), static_cast<int>(m));
-      const double p = belief.mass[static_cast<std::size_t>(c)];
+      const double p = to_double(belief.mass[static_cast<std::size_t>(c)]);
       sub[m][static_cast<std::size_t>(c)] = observes ? p / static_cast<double>(takers.size()) : 0.0;
     }
   }
   for (std::vector<double>& s : sub) {
     double sum = std::accumulate(s.begin(), s.end(), 0.0);
     if (sum == 0.0) {
-      s.assign(belief.mass.begin(), belief.mass.begin() + belief.cells);
+      s = test::as_doubles(belief.mass, belief.cells);
       sum = 1.0;
     }
     for (double& p : s) {
@@ -215,7 +217,8 @@ TEST(Preferences, FollowTheRulesOnRandomSearches) {
     const std::vector<std::vector<double>> expected = slow_sub_priors(planner, search.problem());
     for (std::size_t m = 0; m < expected.size(); ++m) {
       for (std::size_t c = 0; c < expected[m].size(); ++c) {
-        ASSERT_NEAR(planner.belief().sub_mass[m][c], expected[m][c], 1e-12) << "draw " << draw << ", agent " << m;
+        ASSERT_NEAR(to_double(planner.belief().sub_mass[m][c]), expected[m][c], test::kMassAgreement)
+            << "draw " << draw << ", agent " << m;
       }
     }
   }

@@ -5,7 +5,9 @@
 #include <numeric>
 #include <vector>
 
+#include "tests/support/agreement.hpp"
 #include "tests/support/m1.hpp"
+#include "tests/support/masses.hpp"
 #include "tests/support/shared_planner.hpp"
 
 namespace ivo::planner {
@@ -28,16 +30,17 @@ class SubPriorsTest : public testing::Test {
     ASSERT_EQ(planner_.prepare(problem_).code, RefusalCode::kNone);
     ASSERT_TRUE(planner_.belief().has_sub_priors);
     for (int m = 0; m < 2; ++m) {
-      const auto& sub = planner_.belief().sub_mass[index(m)];
-      EXPECT_NEAR(std::accumulate(sub.begin(), sub.begin() + planner_.belief().cells, 0.0), 0.5, 1e-12);
+      const auto sub = test::as_doubles(planner_.belief().sub_mass[index(m)], planner_.belief().cells);
+      EXPECT_NEAR(std::accumulate(sub.begin(), sub.end(), 0.0), 0.5, test::sum_agreement(planner_.belief().cells));
     }
   }
   [[nodiscard]] double share(int agent, double x_m, double y_m) const {
     const Cell c = planner_.cells().at(static_cast<int>(x_m / 0.5), static_cast<int>(y_m / 0.5));
-    return planner_.belief().sub_mass[index(agent)][index(c)];
+    return to_double(planner_.belief().sub_mass[index(agent)][index(c)]);
   }
   [[nodiscard]] double prior(double x_m, double y_m) const {
-    return planner_.belief().mass[index(planner_.cells().at(static_cast<int>(x_m / 0.5), static_cast<int>(y_m / 0.5)))];
+    return to_double(
+        planner_.belief().mass[index(planner_.cells().at(static_cast<int>(x_m / 0.5), static_cast<int>(y_m / 0.5)))]);
   }
 
   test::DrawnMap map_{16.0, 8.0, 0.5};
@@ -52,8 +55,8 @@ TEST_F(SubPriorsTest, AlikeAreThePriorsPart) {
   prepare();
   EXPECT_EQ(planner_.left_without_sub_prior(), 0);
   for (const double x_m : {1.0, 3.0, 8.0, 13.0}) {
-    EXPECT_NEAR(share(0, x_m, 4.0), prior(x_m, 4.0) / 2, 1e-15);
-    EXPECT_NEAR(share(1, x_m, 4.0), prior(x_m, 4.0) / 2, 1e-15);
+    EXPECT_NEAR(share(0, x_m, 4.0), prior(x_m, 4.0) / 2, test::kMassAgreement);
+    EXPECT_NEAR(share(1, x_m, 4.0), prior(x_m, 4.0) / 2, test::kMassAgreement);
   }
 }
 
@@ -74,7 +77,7 @@ TEST_F(SubPriorsTest, OfAnAgentThatIsDealtNothingAreThePriorAndThatIsSaid) {
   problem_.sub_priors = DealtComponents{all_to_one};
   prepare();
   EXPECT_EQ(planner_.left_without_sub_prior(), agent_bit(1));
-  EXPECT_NEAR(share(1, 13.0, 4.0), prior(13.0, 4.0) / 2, 1e-15);
+  EXPECT_NEAR(share(1, 13.0, 4.0), prior(13.0, 4.0) / 2, test::kMassAgreement);
 }
 
 TEST_F(SubPriorsTest, FromImagesCountOnlyWhereThePriorHasMass) {
@@ -87,11 +90,11 @@ TEST_F(SubPriorsTest, FromImagesCountOnlyWhereThePriorHasMass) {
   problem_.sub_priors = SubPriorImages{images};
   map_.put(kWater, 12.0, 4.0, 16.0, 8.0);  // 64 of the 128 cells under the last pixel that reaches up to 4 m
   prepare();
-  EXPECT_NEAR(share(0, 1.0, 1.0), 0.5 / 64, 1e-15);  // the images cover the lower 4 m
+  EXPECT_NEAR(share(0, 1.0, 1.0), 0.5 / 64, test::kMassAgreement);  // the images cover the lower 4 m
   EXPECT_EQ(share(0, 1.0, 5.0), 0.0);
   EXPECT_EQ(share(0, 5.0, 1.0), 0.0);
-  EXPECT_NEAR(share(1, 9.0, 1.0), 0.5 * 1 / (4 * 64), 1e-15);
-  EXPECT_NEAR(share(1, 13.0, 1.0), 0.5 * 3 / (4 * 64), 1e-15);
+  EXPECT_NEAR(share(1, 9.0, 1.0), 0.5 * 1 / (4 * 64), test::kMassAgreement);
+  EXPECT_NEAR(share(1, 13.0, 1.0), 0.5 * 3 / (4 * 64), test::kMassAgreement);
   EXPECT_EQ(share(1, 13.0, 5.0), 0.0);
 }
 

@@ -2,11 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
+#include "planner/search/edge_events.hpp"
 #include "tests/support/random_search.hpp"
 #include "tests/support/shared_planner.hpp"
+#include "tests/support/swath_cells.hpp"
 
 namespace ivo::planner {
 namespace {
@@ -100,6 +103,8 @@ class WalledSearch {
 std::vector<double> seen_s(const Planner& planner, const SearchProblem& problem) {
   static JumpSearch shortest;
   const Graph& graph = planner.graph();
+  static EdgeEvents events(planner.cells(), planner.graph(), planner.sight());  // of the shared planner
+  events.clear();
   std::vector<double> seen(index(planner.cells().count()), 1e30);
   for (int m = 0; m < graph.agents(); ++m) {
     const auto see = [&](Cell c, double way_m) {
@@ -110,14 +115,14 @@ std::vector<double> seen_s(const Planner& planner, const SearchProblem& problem)
     for (Node n = shortest.settle_next(); n >= 0; n = shortest.settle_next()) {
       const Edge by = shortest.edge_to(n);
       way_m[index(n)] = by < 0 ? 0.0 : way_m[index(shortest.before(n))] + graph.length_m(by);
-      for (const SightEvent event : planner.sight().from_node(m, n)) {
-        see(event.cell(), way_m[index(n)]);
-      }
+      test::for_each_cell(planner.cells(), planner.sight(), planner.sight().from_node(m, n),
+                          [&](Cell c, const Swath&) { see(c, way_m[index(n)]); });
     }
     for (Node n = 0; n < graph.nodes(); ++n) {
       for (Edge e = graph.first_edge(n); e < graph.end_edge(n); ++e) {
         if (in(graph.open_to(e), m)) {
-          for (const SightEvent event : planner.sight().along_edge(m, e)) {
+          (void)events.prepare(m, n, e, std::numeric_limits<int>::max());
+          for (const SightEvent event : events.along(m, e)) {
             see(event.cell(), way_m[index(n)] + graph.length_m(e) * event.point() / planner.sight().points(e));
           }
         }

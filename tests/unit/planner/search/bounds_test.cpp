@@ -47,7 +47,7 @@ TEST(Bounds, AreStricterInSmallerCells) {
   ASSERT_FALSE(cells.build(problem.map, 0.0625));
   belief.mass_cell_count = cells.count();
   std::iota(belief.mass_cells.begin(), belief.mass_cells.begin() + cells.count(), 0);
-  std::fill_n(belief.mass.begin(), cells.count(), 1.0 / cells.count());
+  std::fill_n(belief.mass.begin(), cells.count(), Mass(1.0 / cells.count()));
   std::vector<BoundAgent> agents;
   for (const SearchAgent& agent : problem.agents) {
     agents.push_back({{agent.body.start, agent.body.kind, 0.3}, agent.speed_mps, agent.sight_radius_m});

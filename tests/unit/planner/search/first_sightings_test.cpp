@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <random>
@@ -38,49 +39,55 @@ TEST(StepOf, IsTheFormulaOfTheModel) {
 class FirstSightingsTest : public testing::Test {
  protected:
   std::unique_ptr<FirstSightings> sightings_ = std::make_unique<FirstSightings>();
-  FirstSightingsTest() { sightings_->clear(); }
+  FirstSightingsTest() { clear(); }
+
+  void clear() { sightings_->clear(100); }
+  bool see(Cell c, int agent, double time_s) { return sightings_->see(c, agent, Seconds(time_s)); }
 };
 
 TEST_F(FirstSightingsTest, KnowNothingAtFirst) { EXPECT_FALSE(sightings_->seen(5)); }
 
 TEST_F(FirstSightingsTest, TellWhetherACellIsNew) {
-  EXPECT_TRUE(sightings_->see(5, 1, 2.5));
-  EXPECT_FALSE(sightings_->see(5, 0, 1.0));
+  EXPECT_TRUE(see(5, 0, 2.5));
+  EXPECT_FALSE(see(5, 0, 2.75));
+  EXPECT_FALSE(see(5, 1, 1.0));  // known, though nobody saw it as early
   EXPECT_TRUE(sightings_->seen(5));
   EXPECT_FALSE(sightings_->seen(6));
 }
 
 TEST_F(FirstSightingsTest, ForgetAll) {
-  (void)sightings_->see(5, 1, 2.5);
-  sightings_->clear();
+  (void)see(5, 1, 2.5);
+  clear();
   EXPECT_FALSE(sightings_->seen(5));
-  EXPECT_TRUE(sightings_->see(5, 1, 9.0));
-  EXPECT_EQ(sightings_->of(5).time_s, 9.0);
+  EXPECT_TRUE(see(5, 1, 9.0));
+  EXPECT_EQ(sightings_->of(5).time_s, Seconds(9.0));
 }
 
 TEST_F(FirstSightingsTest, CreditTheLowestAgentOfTheStepNotTheFirst) {
-  (void)sightings_->see(5, 2, 4.2);
-  (void)sightings_->see(5, 1, 4.9);
-  EXPECT_EQ(sightings_->of(5).time_s, 4.2);
+  (void)see(5, 1, 4.9);
+  (void)see(5, 2, 4.2);
+  EXPECT_EQ(sightings_->of(5).time_s, Seconds(4.2));
   EXPECT_EQ(sightings_->of(5).agent, 2);
   EXPECT_EQ(sightings_->of(5).credited, 1);
-  EXPECT_EQ(sightings_->of(5).credited_time_s, 4.9);
+  EXPECT_EQ(sightings_->of(5).credited_time_s, Seconds(4.9));
 }
 
 TEST_F(FirstSightingsTest, DoNotCreditALaterStep) {
-  (void)sightings_->see(5, 2, 4.2);
-  (void)sightings_->see(5, 0, 5.1);
-  EXPECT_EQ(sightings_->of(5).credited, 2);
+  (void)see(5, 0, 4.2);
+  (void)see(5, 2, 5.1);
+  EXPECT_EQ(sightings_->of(5).credited, 0);
+  EXPECT_EQ(sightings_->of(5).agent, 0);
+  EXPECT_EQ(sightings_->of(5).step, 5);
 }
 
 TEST_F(FirstSightingsTest, TakeTheCreditAwayWhenAnEarlierStepComesToLight) {
-  (void)sightings_->see(5, 0, 5.1);
-  (void)sightings_->see(5, 2, 4.2);
+  (void)see(5, 0, 5.1);
+  (void)see(5, 2, 4.2);
   EXPECT_EQ(sightings_->of(5).credited, 2);
-  EXPECT_EQ(sightings_->of(5).credited_time_s, 4.2);
+  EXPECT_EQ(sightings_->of(5).credited_time_s, Seconds(4.2));
 }
 
-TEST_F(FirstSightingsTest, DoNotDependOnTheOrderInWhichTheyComeIn) {
+TEST_F(FirstSightingsTest, AreWhatALookAtAllTogetherWouldTell) {
   struct Look {
     int agent;
     double time_s;
@@ -91,10 +98,15 @@ TEST_F(FirstSightingsTest, DoNotDependOnTheOrderInWhichTheyComeIn) {
     std::vector<Look> looks(1 + random() % 6);
     for (Look& look : looks) {
       look = {static_cast<int>(random() % 4), random() % 4 == 0 ? std::floor(time_s(random)) : time_s(random)};
+      look.time_s = std::floor(look.time_s * 65536.0) / 65536.0;  // what both builds can hold
     }
-    sightings_->clear();
+    // Agents one after the other, each in the order of its times.
+    std::sort(looks.begin(), looks.end(), [](const Look& a, const Look& b) {
+      return a.agent < b.agent || (a.agent == b.agent && a.time_s < b.time_s);
+    });
+    clear();
     for (const Look& look : looks) {
-      (void)sightings_->see(7, look.agent, look.time_s);
+      (void)see(7, look.agent, look.time_s);
     }
     Look first = looks[0];
     for (const Look& look : looks) {
@@ -104,16 +116,16 @@ TEST_F(FirstSightingsTest, DoNotDependOnTheOrderInWhichTheyComeIn) {
     }
     Look credited{99, 0.0};
     for (const Look& look : looks) {
-      if (step_of(look.time_s) == step_of(first.time_s) &&
+      if (step_of(Seconds(look.time_s)) == step_of(Seconds(first.time_s)) &&
           (look.agent < credited.agent || (look.agent == credited.agent && look.time_s < credited.time_s))) {
         credited = look;
       }
     }
     const Sighting& s = sightings_->of(7);
-    ASSERT_EQ(s.time_s, first.time_s);
+    ASSERT_EQ(to_double(s.time_s), first.time_s);
     ASSERT_EQ(s.agent, first.agent);
     ASSERT_EQ(s.credited, credited.agent);
-    ASSERT_EQ(s.credited_time_s, credited.time_s);
+    ASSERT_EQ(to_double(s.credited_time_s), credited.time_s);
   }
 }
 

@@ -1,4 +1,5 @@
-// The planner against one that looks everything up the long way: the same seed gives the same plan.
+// The planner against one that looks everything up the long way: the same seed gives the same plan, in doubles; another
+// in fixed point, where draws and trails are rounded.
 #include "tests/support/naive_planner.hpp"
 
 #include <gtest/gtest.h>
@@ -32,15 +33,24 @@ void expect_same(const Plan& plan, const test::NaivePlan& naive) {
   }
 }
 
-TEST(PaperColony, MakesTheNaivePlannersPlanOnRandomSearches) {
+class PaperColony : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (kFixedPoint) {
+      GTEST_SKIP() << "the naive planner decides in doubles";
+    }
+  }
+};
+
+TEST_F(PaperColony, MakesTheNaivePlannersPlanOnRandomSearches) {
   std::mt19937_64 random(31);
   Planner& planner = test::shared_planner();
   int searches = 0;
   int with_sub_priors = 0;
   int incomplete = 0;
   int of_several = 0;
-  for (int draw = 0; searches < 40; ++draw) {
-    ASSERT_LT(draw, 600);
+  for (int draw = 0; searches < 100; ++draw) {
+    ASSERT_LT(draw, 1500);
     test::RandomSearch search(random);
     search.problem().colony.profile = Profile::kPaper;
     if (planner.prepare(search.problem())) {
@@ -55,12 +65,12 @@ TEST(PaperColony, MakesTheNaivePlannersPlanOnRandomSearches) {
     incomplete += plan.score.complete ? 0 : 1;
     of_several += search.problem().agents.size() > 1 ? 1 : 0;
   }
-  EXPECT_GT(with_sub_priors, 8);
-  EXPECT_GT(incomplete, 2);
-  EXPECT_GT(of_several, 15);
+  EXPECT_GT(with_sub_priors, 20);
+  EXPECT_GT(incomplete, 5);
+  EXPECT_GT(of_several, 40);
 }
 
-TEST(PaperColony, MakesTheNaivePlannersPlanOnAShortM1WithAndWithoutSubPriors) {
+TEST_F(PaperColony, MakesTheNaivePlannersPlanOnAShortM1WithAndWithoutSubPriors) {
   for (const bool preferences : {false, true}) {
     test::M1 m1(6);
     m1.problem().cell_m = 0.5;

@@ -5,6 +5,8 @@
 
 #include <vector>
 
+#include "tests/support/agreement.hpp"
+#include "tests/support/masses.hpp"
 #include "tests/support/naive_evaluator.hpp"
 #include "tests/support/random_search.hpp"
 #include "tests/support/shared_planner.hpp"
@@ -12,7 +14,8 @@
 namespace ivo::planner {
 namespace {
 
-constexpr double kAgreement = 1e-9;
+using test::kAgreement;
+using test::kStepAgreement;
 constexpr double kMaxUnseen = 0.3;
 
 using Polylines = std::vector<std::vector<Point>>;
@@ -55,7 +58,7 @@ void expect_agreement(const Planner& planner, const SearchProblem& problem, cons
   const PlanScore fast = score(planner, problem, polylines);
   const Belief& belief = planner.belief();
   const auto cells = planner.cells().count();
-  test::NaiveMission mission{planner.cells(), {belief.mass.begin(), belief.mass.begin() + cells}, {}, 0};
+  test::NaiveMission mission{planner.cells(), test::as_doubles(belief.mass, cells), {}, 0};
   mission.sub_prior_steps = static_cast<int>(belief.sub_prior_steps);
   Polylines kept;
   std::vector<test::NaivePath> naive_paths;
@@ -64,7 +67,7 @@ void expect_agreement(const Planner& planner, const SearchProblem& problem, cons
     ends_s.push_back(scorer().path_end_s(static_cast<int>(m)));
     kept.push_back(cut(planner, paths_of(problem, polylines)[m], ends_s.back()));
     if (belief.has_sub_priors) {
-      mission.sub_priors.emplace_back(belief.sub_mass[m].begin(), belief.sub_mass[m].begin() + cells);
+      mission.sub_priors.push_back(test::as_doubles(belief.sub_mass[m], cells));
     }
   }
   for (std::size_t m = 0; m < polylines.size(); ++m) {
@@ -72,9 +75,9 @@ void expect_agreement(const Planner& planner, const SearchProblem& problem, cons
   }
   const test::NaiveEvaluator evaluator(std::move(mission), naive_paths);
   const PlanScore slow = evaluator.score();
-  EXPECT_NEAR(fast.expected_time_s, slow.expected_time_s, kAgreement);
+  EXPECT_NEAR(fast.expected_time_s, slow.expected_time_s, kStepAgreement);
   EXPECT_NEAR(fast.expected_time_continuous_s, slow.expected_time_continuous_s, kAgreement);
-  EXPECT_NEAR(fast.expected_sub_prior_time_s, slow.expected_sub_prior_time_s, kAgreement);
+  EXPECT_NEAR(fast.expected_sub_prior_time_s, slow.expected_sub_prior_time_s, kStepAgreement);
   EXPECT_NEAR(fast.unseen_mass, slow.unseen_mass, kAgreement);
   EXPECT_NEAR(fast.horizon_s, slow.horizon_s, kAgreement);
   EXPECT_EQ(fast.complete, slow.unseen_mass <= kMaxUnseen + 1e-9);
@@ -122,9 +125,9 @@ TEST(PathScorer, AgreesWithTheNaiveEvaluatorOnPlansAndOnRandomPolylines) {
     const Plan& plan = test::plan_of(planner);
     expect_agreement(planner, search.problem(), waypoints_of(plan));
     const PlanScore again = score(planner, search.problem(), waypoints_of(plan));
-    EXPECT_NEAR(again.expected_time_s, plan.score.expected_time_s, kAgreement);
+    EXPECT_NEAR(again.expected_time_s, plan.score.expected_time_s, kStepAgreement);
     EXPECT_NEAR(again.expected_time_continuous_s, plan.score.expected_time_continuous_s, kAgreement);
-    EXPECT_NEAR(again.expected_sub_prior_time_s, plan.score.expected_sub_prior_time_s, kAgreement);
+    EXPECT_NEAR(again.expected_sub_prior_time_s, plan.score.expected_sub_prior_time_s, kStepAgreement);
     EXPECT_NEAR(again.unseen_mass, plan.score.unseen_mass, kAgreement);
     for (int i = 0; i < 3; ++i) {
       const Polylines polylines = random_polylines(search.problem(), random);

@@ -3,11 +3,14 @@
 #include <cmath>
 #include <random>
 
+#include "tests/support/agreement.hpp"
 #include "tests/support/random_search.hpp"
 #include "tests/support/shared_planner.hpp"
 
 namespace ivo::planner {
 namespace {
+
+using test::kAgreement;
 
 double distance_m(Point a, Point b) { return std::hypot(b.x_m - a.x_m, b.y_m - a.y_m); }
 
@@ -35,6 +38,7 @@ TEST(Plan, RunsAlongEdgesThatItsAgentMayUseFromItsStart) {
   for (int draw = 0; searches < 40; ++draw) {
     ASSERT_LT(draw, 400);
     test::RandomSearch search(random);
+    search.problem().colony.profile = Profile::kPaper;
     const SearchProblem& problem = search.problem();
     if (planner.prepare(problem)) {
       continue;
@@ -54,12 +58,56 @@ TEST(Plan, RunsAlongEdgesThatItsAgentMayUseFromItsStart) {
         ASSERT_GT(distance_m(a, b), 1e-6) << "leg " << i << " leads nowhere";
         length_m += distance_m(a, b);
       }
-      ASSERT_NEAR(path.length_m, length_m, 1e-9);
-      ASSERT_NEAR(path.duration_s, length_m / problem.agents[m].speed_mps, 1e-9);
+      ASSERT_NEAR(path.length_m, length_m, kAgreement);
+      ASSERT_NEAR(path.duration_s, length_m / problem.agents[m].speed_mps, kAgreement / problem.agents[m].speed_mps);
       horizon_s = std::max(horizon_s, path.duration_s);
     }
     ASSERT_EQ(plan.score.horizon_s, horizon_s);
   }
+}
+
+TEST(Plan, MayLeaveTheGraphInTheFastProfileButMeetsNoObstacleNorRestrictedArea) {
+  std::mt19937_64 random(14);
+  Planner& planner = test::shared_planner();
+  int searches = 0;
+  int off_the_graph = 0;
+  for (int draw = 0; searches < 16; ++draw) {
+    ASSERT_LT(draw, 400);
+    test::RandomSearch search(random);
+    search.problem().colony.profile = Profile::kFast;
+    search.problem().colony.generations = 60;
+    const SearchProblem& problem = search.problem();
+    if (planner.prepare(problem)) {
+      continue;
+    }
+    ++searches;
+    SCOPED_TRACE("draw " + std::to_string(draw));
+    const Plan& plan = test::plan_of(planner);
+    ASSERT_EQ(plan.paths.size(), problem.agents.size());
+    double horizon_s = 0.0;
+    for (std::size_t m = 0; m < plan.paths.size(); ++m) {
+      const AgentPath& path = plan.paths[m];
+      const GraphAgent& body = problem.agents[m].body;
+      const auto blocked = static_cast<ClassSet>(obstacle_classes(problem.map.classes) |
+                                                 restricted_classes(problem.map.classes, body.kind));
+      ASSERT_EQ(path.waypoints[0], body.start);
+      double length_m = 0.0;
+      for (std::size_t i = 1; i < path.waypoints.size(); ++i) {
+        const Point a = path.waypoints[i - 1];
+        const Point b = path.waypoints[i];
+        ASSERT_TRUE(swept_disc_is_free(problem.map, blocked, a, b, body.footprint_radius_m)) << "leg " << i;
+        ASSERT_FALSE(touches(body.restricted, a, b)) << "leg " << i;
+        ASSERT_GT(distance_m(a, b), 1e-6) << "leg " << i << " leads nowhere";
+        off_the_graph += joined(planner.graph(), static_cast<int>(m), a, b, i + 1 < path.waypoints.size()) ? 0 : 1;
+        length_m += distance_m(a, b);
+      }
+      ASSERT_NEAR(path.length_m, length_m, kAgreement);
+      ASSERT_NEAR(path.duration_s, length_m / problem.agents[m].speed_mps, kAgreement / problem.agents[m].speed_mps);
+      horizon_s = std::max(horizon_s, path.duration_s);
+    }
+    ASSERT_EQ(plan.score.horizon_s, horizon_s);
+  }
+  EXPECT_GT(off_the_graph, 40);
 }
 
 TEST(Plan, OfAPlaceSeenFromTheStartIsToStayThere) {
@@ -68,6 +116,7 @@ TEST(Plan, OfAPlaceSeenFromTheStartIsToStayThere) {
   problem.map = map.view();
   problem.agents.resize(1);
   problem.agents[0].body.start = {1.5, 1.5};
+  problem.colony.profile = Profile::kPaper;
   Planner& planner = test::shared_planner();
   ASSERT_FALSE(planner.prepare(problem));
   const Plan& plan = test::plan_of(planner);

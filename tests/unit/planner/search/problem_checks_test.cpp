@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -184,15 +185,17 @@ TEST_F(ProblemCheck, RefusesAPriorWhoseMassIsNotFinite) {
 TEST(Normalise, RefusesMassesBelowZeroAndThatAreNoNumbers) {
   static Belief belief;
   static SightTable sight;
+  static Cells cells;
+  ASSERT_FALSE(cells.build(test::DrawnMap(1.0, 0.5, 0.5).view(), 0.5));
+  std::array<double, 2> raw{};
   for (const double bad : {-1e-9, kNan, -kInfinite}) {
-    belief.mass[0] = 1.0;
-    belief.mass[1] = bad;
-    const Refusal refusal = normalise(sight, 2, 1, belief);
+    raw = {1.0, bad};
+    const Refusal refusal = normalise(cells, sight, 1, raw, belief);
     EXPECT_EQ(refusal.code, RefusalCode::kPriorNotFinite);
     EXPECT_TRUE(std::isnan(bad) ? std::isnan(refusal.value) : refusal.value == bad);
   }
-  belief.mass[1] = kInfinite;
-  EXPECT_EQ(normalise(sight, 2, 1, belief).code, RefusalCode::kPriorNotFinite);
+  raw[1] = kInfinite;
+  EXPECT_EQ(normalise(cells, sight, 1, raw, belief).code, RefusalCode::kPriorNotFinite);
 }
 
 TEST_F(ProblemCheck, RefusesImagesThatAreNotWhole) {
@@ -275,6 +278,7 @@ TEST_F(ProblemCheck, APriorOnOneCellIsFoundAndTimesAreThoseOfThatCell) {
   std::vector<std::uint16_t> values(32 * 16, 0);
   values[8 * 32 + 28] = 1;
   problem_.prior = GreyView{values, 32, 16, 0.5};
+  problem_.colony.generations = 60;
   const Plan& p = plan();
   EXPECT_EQ(planner_.belief().mass_cell_count, 1);
   EXPECT_TRUE(p.score.complete);

@@ -3,11 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <map>
-#include <random>
-#include <vector>
+#include <set>
+#include <utility>
 
 #include "planner/world/visibility.hpp"
 #include "tests/support/drawn_map.hpp"
+#include "tests/support/swath_cells.hpp"
 
 namespace ivo::planner {
 namespace {
@@ -19,7 +20,6 @@ struct Scene {
   Cells cells;
   Graph graph;
   SightTable sight;
-  std::vector<double> mass;
 };
 
 Scene& scene() {
@@ -42,86 +42,109 @@ Refusal build(const DrawnMap& map, double cell_m, double spacing_m, const GraphA
   Scene& s = scene();
   EXPECT_FALSE(s.cells.build(map.view(), cell_m));
   EXPECT_FALSE(s.graph.build(map.view(), {spacing_m, 0.4}, agents));
-  s.mass.assign(static_cast<std::size_t>(s.cells.count()), 1.0);
-  for (Cell c = 0; c < s.cells.count(); ++c) {
-    if (s.cells.obstacle(c) || c % 7 == 0) {
-      s.mass[static_cast<std::size_t>(c)] = 0.0;
+  return s.sight.build(s.cells, s.graph, radii_m);
+}
+
+using CellSet = std::set<Cell>;
+using Points = std::pair<int, int>;  // first and last, both included
+
+// What is seen from a point, tried cell by cell.
+void look(Point from, double radius_m, CellSet& seen) {
+  const Cells& cells = scene().cells;
+  for (Cell c = 0; c < cells.count(); ++c) {
+    if (within_radius(cells, from, c, radius_m) && line_of_sight(cells, from, c)) {
+      seen.insert(c);
     }
   }
-  return s.sight.build(s.cells, s.graph, radii_m, s.mass);
 }
 
-using FirstPoints = std::map<Cell, int>;
-
-// The first sight point of the edge that sees each cell with mass, tried cell by cell and point by point.
-FirstPoints slow_first_points(Node tail, Edge e, double radius_m) {
-  const Scene& s = scene();
-  FirstPoints first;
-  const Point a = s.graph.position(tail);
-  const Point b = s.graph.position(s.graph.head(e));
-  const int n = sight_points(s.graph.length_m(e), s.cells.cell_m());
-  for (Cell c = 0; c < s.cells.count(); ++c) {
-    for (int k = 0; k <= n && s.mass[static_cast<std::size_t>(c)] > 0.0; ++k) {
-      const Point p = sight_point(a, b, k, n);
-      if (within_radius(s.cells, p, c, radius_m) && line_of_sight(s.cells, p, c)) {
-        first.emplace(c, k);
-        break;
-      }
-    }
-  }
-  return first;
+CellSet cells_of(const SightView& view) {
+  CellSet cells;
+  test::for_each_cell(scene().cells, scene().sight, view, [&](Cell c, const Swath&) { cells.insert(c); });
+  return cells;
 }
 
-FirstPoints as_map(std::span<const SightEvent> events) {
-  FirstPoints first;
-  for (const SightEvent event : events) {
-    EXPECT_TRUE(first.emplace(event.cell(), event.point()).second) << "cell " << event.cell() << " twice";
-  }
-  return first;
-}
-
-TEST(SightEvent, KeepsCellAndPointAtTheirLargest) {
-  const SightEvent event(limits::kCells - 1, SightEvent::kMaxPoint);
-  EXPECT_EQ(event.cell(), limits::kCells - 1);
-  EXPECT_EQ(event.point(), SightEvent::kMaxPoint);
-  EXPECT_EQ(SightEvent(0, 5).cell(), 0);
-  EXPECT_EQ(SightEvent(0, 5).point(), 5);
+// The view's cells by the points, counted along the way, from which they are seen.
+std::map<Points, CellSet> parts_of(const SightView& view, int points) {
+  std::map<Points, CellSet> parts;
+  test::for_each_cell(scene().cells, scene().sight, view, [&](Cell c, const Swath& swath) {
+    const Points range = view.reversed ? Points{points - swath.last_point, points - swath.first_point}
+                                       : Points{swath.first_point, swath.last_point};
+    EXPECT_TRUE(parts[range].insert(c).second) << "cell " << c << " twice";
+  });
+  return parts;
 }
 
 TEST(SightTable, AgreesWithALookFromEveryPointOfEveryEdgeBothWays) {
   DrawnMap map(9.0, 7.0, 0.5);
   map.put(kBuilding, 3.0, 3.0, 4.5, 5.0).put(kTree, 6.5, 1.5, 7.0, 2.0).put(kWater, 1.0, 5.5, 2.0, 6.0);
   map.put(kWall, 5.5, 0.0, 6.0, 1.0);
-  const SightRadii radii_m = {1.3, 2.6, 1.3};
-  ASSERT_FALSE(build(map, 0.5, 1.8, agents_at({{1.0, 1.0}, {8.0, 6.0}, {1.0, 4.0}}), radii_m));
+  const int agents = std::min(3, limits::kAgents);
+  SightRadii radii_m{1.3, 2.6};
+  radii_m[index(agents - 1)] = agents > 2 ? 1.3 : 2.6;
+  GraphAgents bodies = agents_at({{1.0, 1.0}, {8.0, 6.0}});
+  if (agents > 2) {
+    GraphAgent third;
+    third.start = {1.0, 4.0};
+    ASSERT_TRUE(bodies.push_back(third));
+  }
+  ASSERT_FALSE(build(map, 0.25, 1.8, bodies, radii_m));
   const Scene& s = scene();
   std::map<Cell, AgentSet> observable;
-  for (int agent = 0; agent < 3; ++agent) {
-    const double radius_m = radii_m[static_cast<std::size_t>(agent)];
-    for (Node n = 0; n < s.graph.nodes(); ++n) {
-      FirstPoints from_node;
-      for (Cell c = 0; c < s.cells.count(); ++c) {
-        if (s.mass[static_cast<std::size_t>(c)] > 0.0 && within_radius(s.cells, s.graph.position(n), c, radius_m) &&
-            line_of_sight(s.cells, s.graph.position(n), c)) {
-          from_node.emplace(c, 0);
-          observable[c] = static_cast<AgentSet>(observable[c] | agent_bit(agent));
-        }
+  int long_edges = 0;
+  for (int agent = 0; agent < agents; ++agent) {
+    const double radius_m = radii_m[index(agent)];
+    const auto observe = [&](const CellSet& seen) {
+      for (const Cell c : seen) {
+        observable[c] = static_cast<AgentSet>(observable[c] | agent_bit(agent));
       }
-      ASSERT_EQ(as_map(s.sight.from_node(agent, n)), from_node);
+    };
+    for (Node n = 0; n < s.graph.nodes(); ++n) {
+      CellSet from_node;
+      look(s.graph.position(n), radius_m, from_node);
+      ASSERT_EQ(cells_of(s.sight.from_node(agent, n)), from_node);
+      observe(from_node);
       for (Edge e = s.graph.first_edge(n); e < s.graph.end_edge(n); ++e) {
-        FirstPoints first = slow_first_points(n, e, radius_m);
-        for (const auto& [cell, point] : first) {
-          observable[cell] = static_cast<AgentSet>(observable[cell] | agent_bit(agent));
+        SCOPED_TRACE("agent " + std::to_string(agent) + ", edge " + std::to_string(e));
+        const int points = sight_points(s.graph.length_m(e), 0.25);
+        ASSERT_EQ(s.sight.points(e), points);
+        int next = 0;  // the parts follow each other on the way, and share the point between them
+        const std::map<Points, CellSet> parts = parts_of(s.sight.along_edge(agent, e), points);
+        for (const auto& [range, cells] : parts) {
+          ASSERT_EQ(range.first, next);
+          next = range.second;
+          CellSet seen;
+          for (int k = range.first; k <= range.second; ++k) {
+            look(sight_point(s.graph.position(n), s.graph.position(s.graph.head(e)), k, points), radius_m, seen);
+          }
+          ASSERT_EQ(cells, seen) << "points " << range.first << " to " << range.second;
+          observe(seen);
         }
-        std::erase_if(first, [](const auto& entry) { return entry.second == 0; });
-        ASSERT_EQ(as_map(s.sight.along_edge(agent, e)), first) << "agent " << agent << ", node " << n << ", edge " << e;
-        ASSERT_EQ(s.sight.points(e), sight_points(s.graph.length_m(e), 0.5));
+        ASSERT_EQ(next, points);
+        long_edges += parts.size() > 2 ? 1 : 0;
       }
     }
   }
+  EXPECT_GT(long_edges, 20);
   for (Cell c = 0; c < s.cells.count(); ++c) {
     ASSERT_EQ(s.sight.observable_by(c), observable[c]) << "cell " << c;
   }
+}
+
+TEST(SightTable, GivesTheSwathsInTheOrderOfTheWayInBothDirections) {
+  ASSERT_FALSE(build(DrawnMap(30.0, 3.0, 0.5), 0.25, 10.0, agents_at({{1.5, 1.5}}), {1.0}));
+  const Scene& s = scene();
+  int swaths = 0;
+  for (Edge e = 0; e < s.graph.edges(); ++e) {
+    const SightView view = s.sight.along_edge(0, e);
+    int last = 0;
+    for (std::size_t i = 0; i < view.size(); ++i, ++swaths) {
+      const int first_point = view.reversed ? s.sight.points(e) - view.at(i).last_point : view.at(i).first_point;
+      ASSERT_GE(first_point, last);
+      last = first_point;
+    }
+  }
+  EXPECT_GT(swaths, 4 * s.graph.edges());
 }
 
 TEST(SightTable, CountsACellAsObservableOnlyByAgentsThatCanGetToASightOfIt) {
@@ -131,34 +154,58 @@ TEST(SightTable, CountsACellAsObservableOnlyByAgentsThatCanGetToASightOfIt) {
   const Scene& s = scene();
   for (Cell c = 0; c < s.cells.count(); ++c) {
     const double x = s.cells.centre(c).x_m;
-    const bool has_mass = s.mass[static_cast<std::size_t>(c)] > 0.0;
-    ASSERT_EQ(s.sight.observable_by(c), has_mass ? agent_bit(x < 7.0 ? 0 : 1) : 0) << "cell " << c;
+    const AgentSet by = x > 7.0 && x < 7.5 ? static_cast<AgentSet>(agent_bit(0) | agent_bit(1))  // its two faces
+                                           : agent_bit(x < 7.0 ? 0 : 1);
+    ASSERT_EQ(s.sight.observable_by(c), by) << "cell " << c;
   }
 }
 
 TEST(SightTable, IsBuiltAnewForAnotherMission) {
   ASSERT_FALSE(build(DrawnMap(9.0, 9.0, 0.5), 0.5, 3.0, agents_at({{1.5, 1.5}, {7.5, 7.5}}), {1.0, 3.0}));
-  const int before = scene().sight.events();
+  const int before = scene().sight.words_used();
   ASSERT_FALSE(build(DrawnMap(6.0, 3.0, 0.5), 0.5, 3.0, agents_at({{1.5, 1.5}}), {1.0}));
-  EXPECT_LT(scene().sight.events(), before);
+  EXPECT_LT(scene().sight.words_used(), before);
   EXPECT_EQ(scene().graph.edges(), 2);
   ASSERT_FALSE(build(DrawnMap(9.0, 9.0, 0.5), 0.5, 3.0, agents_at({{1.5, 1.5}, {7.5, 7.5}}), {1.0, 3.0}));
-  EXPECT_EQ(scene().sight.events(), before);
+  EXPECT_EQ(scene().sight.words_used(), before);
+}
+
+TEST(SightTable, KeepsOneRecordForAgentsOfOneRadius) {
+  const DrawnMap map(9.0, 9.0, 0.5);
+  const GraphAgents two = agents_at({{1.5, 1.5}, {7.5, 7.5}});
+  ASSERT_FALSE(build(map, 0.5, 3.0, two, {2.0, 2.0}));
+  const int alike = scene().sight.words_used();
+  EXPECT_EQ(scene().sight.layer(0), scene().sight.layer(1));
+  ASSERT_FALSE(build(map, 0.5, 3.0, two, {2.0, 2.01}));
+  EXPECT_NE(scene().sight.layer(0), scene().sight.layer(1));
+  EXPECT_EQ(scene().sight.radius_m(1), 2.01);
+  EXPECT_GT(scene().sight.words_used(), 1.8 * alike);
 }
 
 TEST(SightTable, RefusesAnEdgeWithMoreSightPointsThanAnEventCanNumber) {
-  const Refusal refusal = build(DrawnMap(420.0, 2.0, 0.5), 0.05, 105.0, agents_at({{52.5, 1.0}}), {0.3});
+  const Refusal refusal = build(DrawnMap(420.0, 2.0, 0.5), 0.25, 210.0, agents_at({{105.0, 1.0}}), {0.3});
   EXPECT_EQ(refusal.code, RefusalCode::kEdgeTooLong);
-  EXPECT_GT(refusal.value, SightEvent::kMaxPoint);
-  EXPECT_EQ(refusal.limit, SightEvent::kMaxPoint);
+  EXPECT_GT(refusal.value, SightTable::kMaxPoint);
+  EXPECT_EQ(refusal.limit, SightTable::kMaxPoint);
 }
 
-TEST(SightTable, RefusesMoreEventsThanItsCapacity) {
-  // Every node sees every cell: the nodes' own rows alone are too many.
-  const Refusal refusal = build(DrawnMap(60.0, 60.0, 0.5), 0.5, 1.0, agents_at({{0.5, 0.5}}), {100.0});
+TEST(SightTable, RefusesMoreRowsThanItsCapacity) {
+  // From every node and edge every row of the map is seen, several windows wide.
+  const bool large = limits::kNodes > 1000;
+  const double side_m = large ? 40.0 : 15.0;
+  const Refusal refusal =
+      build(DrawnMap(side_m, side_m, 0.5), large ? 0.25 : 0.1, 1.0, agents_at({{0.5, 0.5}}), {100.0});
   EXPECT_EQ(refusal.code, RefusalCode::kSightTableFull);
-  EXPECT_EQ(refusal.value, limits::kSightEvents);
-  EXPECT_EQ(refusal.limit, limits::kSightEvents);
+  EXPECT_GT(refusal.value, limits::kSightWords);
+  EXPECT_EQ(refusal.limit, limits::kSightWords);
+}
+
+TEST(SightTable, IsBuiltAgainAfterARefusal) {
+  ASSERT_TRUE(build(DrawnMap(420.0, 2.0, 0.5), 0.25, 210.0, agents_at({{105.0, 1.0}}), {0.3}));
+  ASSERT_FALSE(build(DrawnMap(3.0, 3.0, 0.5), 0.5, 3.0, agents_at({{1.5, 1.5}}), {1.0}));
+  CellSet seen;
+  look({1.5, 1.5}, 1.0, seen);
+  EXPECT_EQ(cells_of(scene().sight.from_node(0, 0)), seen);
 }
 
 }  // namespace

@@ -1,0 +1,47 @@
+// What the parts of a search cost, in units of work: a unit is about 50 instructions of a Cortex-M7 and 10 of an
+// x86-64, one row of 64 cells looked at. Fitted to instruction counts of the fixed-point build on the M7
+// (tests/cross/slice_costs), so that slices of equal budgets are of equal length whatever they do.
+#pragma once
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace ivo::planner::work {
+
+// Ants.
+[[nodiscard]] constexpr int choice(int edges) noexcept { return 2 + edges * 2 / 5; }
+[[nodiscard]] constexpr int rows_shown(int rows, int new_cells) noexcept { return rows + new_cells * 2 / 5; }
+[[nodiscard]] constexpr int rows_searched(int rows) noexcept { return rows * 2 / 5; }
+[[nodiscard]] constexpr int settled(int edges) noexcept { return 7 + edges * 2 / 3; }
+inline constexpr int kMoveEnd = 38;
+[[nodiscard]] constexpr int bytes(int count) noexcept { return count / 64; }
+
+// Exact scores of tours.
+[[nodiscard]] constexpr int events_replayed(int events, int taken) noexcept { return events * 2 / 5 + taken * 4 / 5; }
+[[nodiscard]] constexpr int cells_summed(int cells, bool sub_priors) noexcept {
+  return sub_priors ? cells * 4 : cells * 9 / 4;
+}
+inline constexpr int kCellsForgotten = 16;  // for one unit
+
+// Trails.
+[[nodiscard]] constexpr int raised(int trails) noexcept { return trails / 14; }
+[[nodiscard]] constexpr int evaporated(int trails) noexcept { return trails / 6; }
+[[nodiscard]] constexpr int clamped(int trails) noexcept { return trails * 2 / 7; }
+
+// Changes of a route.
+inline constexpr int kProposal = 48;
+[[nodiscard]] constexpr int legs(int count) noexcept { return count / 2; }
+inline constexpr int kSegment = 28;
+inline constexpr int kPart = 10;
+inline constexpr int kSweptRow = 7;
+inline constexpr int kJudgement = 20;
+[[nodiscard]] constexpr int rows_judged(int rows, int planes_read) noexcept {
+  return rows * 4 / 5 + planes_read * 8 / 7;
+}
+
+// Discs and rays of exact looks.
+[[nodiscard]] constexpr int disc_row(int new_cells) noexcept { return 4 + new_cells * 5 / 2; }
+/// A grid walk over so many columns and rows.
+[[nodiscard]] constexpr int ray(int columns, int rows) noexcept { return 2 + (columns + rows) * 2 / 5; }
+
+}  // namespace ivo::planner::work
