@@ -95,9 +95,9 @@ planner::Progress Colonies::search_on() {
 
 void Colonies::exchange() {
   const planner::Search& teacher = *searches_[best()];
-  for (planner::Search* search : searches_) {
-    if (search != &teacher) {
-      search->learn_from(teacher);
+  for (const std::unique_ptr<planner::Search>& other : others_) {
+    if (other.get() != &teacher) {
+      other->learn_from(teacher);
     }
   }
   next_exchange_ += std::min(kExchange, std::numeric_limits<int>::max() - next_exchange_);

@@ -1,5 +1,6 @@
 // The search of one mission by colonies side by side, a thread each, on the planner's tables. At fixed generations all
-// learn of the best. What they find depends on their number and the seed, never on timing.
+// but the first learn of the best; the first goes its own way, so that more colonies never find less in as many
+// generations. What they find depends on their number and the seed, never on timing.
 #pragma once
 
 #include <cstddef>

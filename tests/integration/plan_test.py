@@ -2,6 +2,7 @@
 """`ivo plan` from outside: what it writes, what it says, how it ends."""
 
 import os
+import resource
 import signal
 import subprocess
 import tempfile
@@ -58,6 +59,43 @@ class Plan(unittest.TestCase):
         self.assertNotEqual(read_json(outs[0], "plan.json")["agents"], read_json(outs[2], "plan.json")["agents"])
         self.assertEqual(read_json(outs[2], "plan.json")["seed"], 4)
 
+    def test_threads_are_colonies_whose_plan_depends_on_their_number_and_the_seed_alone(self):
+        outs = [os.path.join(self.folder, name) for name in ("one", "two", "again", "pinned")]
+        self.plan("--iterations", "40", out=outs[0])
+        self.plan("--iterations", "40", "--threads", "2", out=outs[1])
+        self.plan("--iterations", "40", "--threads", "2", out=outs[2])
+        core = min(os.sched_getaffinity(0))
+        done = subprocess.run(
+            [IVO, "plan", os.path.join(self.folder, "mission.toml"), "--iterations", "40", "--threads", "2", "--out", outs[3]],
+            capture_output=True, check=False, stdin=subprocess.DEVNULL, preexec_fn=lambda: os.sched_setaffinity(0, {core}),
+        )
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.bytes_of(outs[1]), self.bytes_of(outs[2]))
+        self.assertEqual(self.bytes_of(outs[1]), self.bytes_of(outs[3]))
+        one, two = (read_json(out, "plan.json") for out in outs[:2])
+        self.assertEqual((one["threads"], two["threads"], two["generations_done"]), (1, 2, 40))
+        self.assertLessEqual(two["score"]["expected_time_continuous_s"], one["score"]["expected_time_continuous_s"])
+        self.assertEqual(schema_faults(os.path.join(outs[1], "plan.json"), "plan"), [])
+
+    def test_threads_end_by_time_too(self):
+        self.plan("--threads", "2", "--time-limit", "0.2")
+        self.assertGreater(read_json(self.out, "plan.json")["generations_done"], 5)
+
+    def test_colonies_that_find_no_memory_are_refused_by_what_they_need(self):
+        def little_memory():
+            resource.setrlimit(resource.RLIMIT_AS, (1 << 30, 1 << 30))
+
+        done = subprocess.run(
+            [IVO, "plan", write_mission(self.folder), "--threads", "16", "--out", self.out],
+            capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL, preexec_fn=little_memory,
+        )
+        self.assertEqual(done.returncode, 2)
+        self.assertRegex(
+            done.stderr,
+            r"^ivo: --threads: no memory for 16 colonies; expected [1-9][0-9]* MB for each after the first, or fewer of them\n$",
+        )
+        self.assertFalse(os.path.exists(self.out))
+
     def test_plan_and_run_make_the_same_plan(self):
         self.plan()
         run = os.path.join(self.folder, "run")
@@ -92,8 +130,13 @@ class Plan(unittest.TestCase):
         self.assertEqual(schema_faults(os.path.join(self.out, "plan.json"), "plan"), [])
 
     def test_ctrl_c_ends_the_search_with_the_best_plan_so_far(self):
+        for threads in ("1", "3"):
+            with self.subTest(threads):
+                self.interrupt("--threads", threads)
+
+    def interrupt(self, *args):
         process = subprocess.Popen(
-            [IVO, "plan", write_mission(self.folder), "--iterations", "1000000000", "--out", self.out],
+            [IVO, "plan", write_mission(self.folder), "--iterations", "1000000000", "--out", self.out, *args],
             stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
         )
         for line in process.stdout:
@@ -143,7 +186,9 @@ class Plan(unittest.TestCase):
             (["--time-limit", "nan"], 'ivo: --time-limit: "nan"; expected a number, 0.001 to 86400; ivo --help shows what there is\n'),
             (["--iterations", "2.5"], 'ivo: --iterations: "2.5"; expected a whole number, 1 to 1000000000; ivo --help shows what there is\n'),
             (["--seed", "-1"], 'ivo: --seed: "-1"; expected a whole number, 0 to 9223372036854775807; ivo --help shows what there is\n'),
-            (["--threads", "0"], 'ivo: --threads: "0"; expected a whole number, 1 to 64; ivo --help shows what there is\n'),
+            (["--threads", "0"], 'ivo: --threads: "0"; expected a whole number, 1 to 16; ivo --help shows what there is\n'),
+            (["--threads", "17"], 'ivo: --threads: "17"; expected a whole number, 1 to 16; ivo --help shows what there is\n'),
+            (["--threads", "two"], 'ivo: --threads: "two"; expected a whole number, 1 to 16; ivo --help shows what there is\n'),
         ):
             done = ivo("plan", mission, "--out", self.out, *args)
             self.assertEqual((done.returncode, done.stderr), (2, line))
