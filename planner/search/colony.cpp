@@ -73,6 +73,14 @@ bool Colony::better(const Tour& a, const Tour& b) const noexcept {
   return a.complete ? a.cost.high < b.cost.low : a.unseen < b.unseen;
 }
 
+// Ants are ranked by Eq. 8 in both profiles; what is shown in the fast one is ranked by ET_c, as its improvement is.
+bool Colony::better_to_show(const Tour& a, const Tour& b) const noexcept {
+  if (parameters_.profile == Profile::kPaper || world_.belief.has_sub_priors || !a.complete || !b.complete) {
+    return better(a, b);
+  }
+  return a.score.expected_time_continuous_s < b.score.expected_time_continuous_s;
+}
+
 void Colony::score(Tour& tour, Phase phase) noexcept {
   scorer_.start(tour, parameters_.ant.max_unseen_mass);
   phase_ = phase;
@@ -140,7 +148,7 @@ int Colony::end_generation() noexcept {
 
 int Colony::take_generation_best() noexcept {
   ants_over_ = false;
-  if (!has_best_ || (generation_best_.scored && better(generation_best_, best_))) {
+  if (!has_best_ || (generation_best_.scored && better_to_show(generation_best_, best_))) {
     set_best(generation_best_);
   }
   if (generation_ >= parameters_.generations || best_.cost.high <= Mass{}) {
@@ -165,7 +173,7 @@ void Colony::set_best(const Tour& tour) noexcept {
 }
 
 void Colony::offer(const Tour& tour) noexcept {
-  if (!has_best_ || better(tour, best_)) {
+  if (!has_best_ || better_to_show(tour, best_)) {
     set_best(tour);
   }
 }

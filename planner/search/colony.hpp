@@ -66,6 +66,7 @@ class Colony {
   int sweep_trails(int rows) noexcept;
   void score(Tour& tour, Phase phase) noexcept;
   [[nodiscard]] bool better(const Tour& a, const Tour& b) const noexcept;
+  [[nodiscard]] bool better_to_show(const Tour& a, const Tour& b) const noexcept;
   void set_best(const Tour& tour) noexcept;
 
   const World& world_;
