@@ -79,7 +79,7 @@ class Colony {
   Rng deposit_rng_;  // of its own: who deposits is known before the ants set out
   Phase phase_ = Phase::kDone;
   int generation_ = 0;
-  int bettered_ = 0;  // generation of the best so far, or of the last restart
+  int bettered_ = 0;   // generation of the best so far, or of the last restart
   int ants_done_ = 0;  // of this generation
   bool ants_over_ = false;
   bool deposits_iteration_best_ = false;

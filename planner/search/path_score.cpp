@@ -176,8 +176,7 @@ PlanScore PathScorer::score() const noexcept {
   PlanScore score = expected_.score(*belief_, max_unseen_mass_);
   if (belief_->has_sub_priors) {
     const Mass left = std::max(Mass{}, Mass(1) - own_mass_);
-    score.expected_sub_prior_time_own_s =
-        to_double(own_mass_steps_ + left * belief_->sub_prior_steps) * kStepSeconds;
+    score.expected_sub_prior_time_own_s = to_double(own_mass_steps_ + left * belief_->sub_prior_steps) * kStepSeconds;
   }
   return score;
 }
