@@ -98,7 +98,11 @@ void show_score(const PlanView& view, const planner::PlanScore& score) {
   say("ET", format("%.2f s (Eq. 8); ET_c %.2f s; the paths end at %.1f s", score.expected_time_s,
                    score.expected_time_continuous_s, score.horizon_s));
   if (view.planner.belief().has_sub_priors) {
-    say("EST", format("%.2f s on the sub-priors", score.expected_sub_prior_time_s));
+    std::string est = format("%.2f s on the sub-priors", score.expected_sub_prior_time_s);
+    if (score.expected_sub_prior_time_own_s > 0.0) {
+      est += format("; %.2f s if each depletes its own alone", score.expected_sub_prior_time_own_s);
+    }
+    say("EST", est);
   }
   say("unseen",
       format("%.2f %% of the observable probability, %s; %.2f %% of all is unobservable", 100 * score.unseen_mass,

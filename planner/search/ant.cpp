@@ -97,19 +97,28 @@ int Ant::choose_agent(Rng& rng) noexcept {
     phase_ = Phase::kJump;
     return 1;
   }
-  phase_ = heuristic_ == Heuristic::kMts ? Phase::kWeigh : Phase::kChooseNode;
-  if (phase_ == Phase::kWeigh) {
+  phase_ = heuristic_ == Heuristic::kTsp ? Phase::kChooseNode : Phase::kWeigh;
+  if (heuristic_ == Heuristic::kMts) {
     sectors_.begin(agent_, at_[index(agent_)]);
+  } else if (heuristic_ == Heuristic::kUnseen) {
+    unseen_mass_.begin(agent_, at_[index(agent_)]);
   }
   return 1;
 }
 
 int Ant::weigh(int rows) noexcept {
-  const int work = sectors_.advance(rows);
-  if (sectors_.done()) {
+  const bool sectors = heuristic_ == Heuristic::kMts;
+  const int work = sectors ? sectors_.advance(rows) : unseen_mass_.advance(seen_, rows, [&](Edge e) {
+    return in(world_.graph.open_to(e), agent_) && !visited(world_.graph.head(e));
+  });
+  if (sectors ? sectors_.done() : unseen_mass_.done()) {
     phase_ = Phase::kChooseNode;
   }
   return work;
+}
+
+Visibility Ant::visibility(Edge e) const noexcept {
+  return heuristic_ == Heuristic::kMts ? sectors_.visibility(e, beta_) : unseen_mass_.visibility(e, beta_);
 }
 
 // Eq. 2 over the neighbours on which no agent of this ant has been.
@@ -119,11 +128,11 @@ int Ant::choose_node(Rng& rng) noexcept {
   const Edge first = graph.first_edge(here);
   const Edge end = graph.end_edge(here);
   const int agent = agent_;
-  const bool sectors = heuristic_ == Heuristic::kMts;
+  const bool by_length = heuristic_ == Heuristic::kTsp;
   Weight sum{};
   for (Edge e = first; e < end; ++e) {
     if (!visited(graph.head(e)) && in(graph.open_to(e), agent)) {
-      sum += sectors ? trails_.attraction(agent, e, sectors_.visibility(e, beta_)) : trails_.attraction(agent, e);
+      sum += by_length ? trails_.attraction(agent, e) : trails_.attraction(agent, e, visibility(e));
     }
     weights_[index(e - first)] = sum;
   }
@@ -248,7 +257,7 @@ int Ant::look(const Swath& part, const std::uint64_t* words, int first_point, in
   const Belief& belief = world_.belief;
   Mass gained{};
   int cells = 0;
-  if (belief.alike > Mass{} && heuristic_ == Heuristic::kTsp) {
+  if (belief.alike > Mass{} && heuristic_ != Heuristic::kMts) {
     gained = belief.alike * seen_.look_and_count(part, words);
   } else {
     seen_.look(part, words, [&](int row, std::uint64_t fresh) {

@@ -12,6 +12,7 @@
 #include "planner/search/sector_heuristic.hpp"
 #include "planner/search/tour.hpp"
 #include "planner/search/trails.hpp"
+#include "planner/search/unseen_heuristic.hpp"
 #include "planner/search/world.hpp"
 
 namespace ivo::planner {
@@ -25,7 +26,8 @@ struct AntParameters {
 
 class Ant {
  public:
-  Ant(const World& world, const Trails& trails) noexcept : world_(world), trails_(trails), sectors_(world) {}
+  Ant(const World& world, const Trails& trails) noexcept
+      : world_(world), trails_(trails), sectors_(world), unseen_mass_(world) {}
 
   /// Puts every agent on its start. `beta` is for eta_MTS; eta_TSP is in the trails. Cost: the seen map's bytes.
   void start(const AntParameters& parameters, Heuristic heuristic, int beta) noexcept;
@@ -55,6 +57,7 @@ class Ant {
 
   int choose_agent(Rng& rng) noexcept;
   int weigh(int rows) noexcept;
+  [[nodiscard]] Visibility visibility(Edge e) const noexcept;
   int choose_node(Rng& rng) noexcept;
   int jump() noexcept;
   int look_around(int rows) noexcept;
@@ -72,6 +75,7 @@ class Ant {
   const World world_;
   const Trails& trails_;
   SectorHeuristic sectors_;
+  UnseenHeuristic unseen_mass_;
   AntParameters parameters_;
   Heuristic heuristic_ = Heuristic::kTsp;
   int beta_ = 0;

@@ -31,6 +31,7 @@ void Colony::start(const ColonyParameters& parameters) noexcept {
   rng_ = Rng(parameters.seed);
   deposit_rng_ = Rng(~parameters.seed);
   generation_ = 0;
+  bettered_ = 0;
   ants_done_ = 0;
   ants_over_ = false;
   has_best_ = false;
@@ -70,6 +71,14 @@ bool Colony::better(const Tour& a, const Tour& b) const noexcept {
     return a.complete;
   }
   return a.complete ? a.cost.high < b.cost.low : a.unseen < b.unseen;
+}
+
+// Ants are ranked by Eq. 8 in both profiles; what is shown in the fast one is ranked by ET_c, as its improvement is.
+bool Colony::better_to_show(const Tour& a, const Tour& b) const noexcept {
+  if (parameters_.profile == Profile::kPaper || world_.belief.has_sub_priors || !a.complete || !b.complete) {
+    return better(a, b);
+  }
+  return a.score.expected_time_continuous_s < b.score.expected_time_continuous_s;
 }
 
 void Colony::score(Tour& tour, Phase phase) noexcept {
@@ -139,7 +148,7 @@ int Colony::end_generation() noexcept {
 
 int Colony::take_generation_best() noexcept {
   ants_over_ = false;
-  if (!has_best_ || (generation_best_.scored && better(generation_best_, best_))) {
+  if (!has_best_ || (generation_best_.scored && better_to_show(generation_best_, best_))) {
     set_best(generation_best_);
   }
   if (generation_ >= parameters_.generations || best_.cost.high <= Mass{}) {
@@ -148,18 +157,23 @@ int Colony::take_generation_best() noexcept {
   }
   sweep_agent_ = 0;
   sweep_edge_ = 0;
-  phase_ = generation_ == 1 ? Phase::kRaise : Phase::kEvaporate;
+  const bool stale = parameters_.restart_after > 0 && generation_ - bettered_ >= parameters_.restart_after;
+  if (stale) {
+    bettered_ = generation_;
+  }
+  phase_ = generation_ == 1 || stale ? Phase::kRaise : Phase::kEvaporate;
   return 1;
 }
 
 void Colony::set_best(const Tour& tour) noexcept {
   best_.assign(tour);
   has_best_ = true;
+  bettered_ = generation_;
   trails_.set_limits(cost_of(best_));
 }
 
 void Colony::offer(const Tour& tour) noexcept {
-  if (!has_best_ || better(tour, best_)) {
+  if (!has_best_ || better_to_show(tour, best_)) {
     set_best(tour);
   }
 }

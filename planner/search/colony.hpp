@@ -23,6 +23,7 @@ struct ColonyParameters {
   int ants = 10;
   int beta = 6;
   double rho = 0.002;
+  int restart_after = 0;        ///< generations without a better plan before all trails are equal again; 0: never
   double iteration_best = 0.5;  ///< probability that the generation's best deposits, not the best so far
   AntParameters ant;
   std::uint64_t seed = 1;
@@ -65,6 +66,7 @@ class Colony {
   int sweep_trails(int rows) noexcept;
   void score(Tour& tour, Phase phase) noexcept;
   [[nodiscard]] bool better(const Tour& a, const Tour& b) const noexcept;
+  [[nodiscard]] bool better_to_show(const Tour& a, const Tour& b) const noexcept;
   void set_best(const Tour& tour) noexcept;
 
   const World& world_;
@@ -77,6 +79,7 @@ class Colony {
   Rng deposit_rng_;  // of its own: who deposits is known before the ants set out
   Phase phase_ = Phase::kDone;
   int generation_ = 0;
+  int bettered_ = 0;   // generation of the best so far, or of the last restart
   int ants_done_ = 0;  // of this generation
   bool ants_over_ = false;
   bool deposits_iteration_best_ = false;

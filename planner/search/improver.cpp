@@ -708,7 +708,8 @@ void Improver::learn_from(const Improver& other) noexcept {
 
 // The plan is shown only when it is better by the exact score.
 int Improver::take_score() noexcept {
-  const PlanScore score = scorer_.score();
+  PlanScore score = scorer_.score();
+  score.expected_sub_prior_time_own_s = 0.0;  // not asked for: as MMAS's own plans have it
   int work = 1;
   if (better(score, best_score_)) {
     has_best_ = true;

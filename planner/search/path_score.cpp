@@ -46,6 +46,7 @@ void PathScorer::start(const Cells& cells, const Belief& belief, std::span<const
   }
   max_unseen_mass_ = max_unseen_mass;
   expected_.clear();
+  own_mass_ = own_mass_steps_ = Mass{};
   cell_ = 0;
   phase_ = Phase::kClear;
 }
@@ -153,11 +154,31 @@ int PathScorer::look(int rows) noexcept {
       seen_.set_window(row, byte, known | fresh);
       const Cell first = cells_->at(8 * byte, row);
       for_each_bit(fresh, [&](int bit) { (void)sightings_.see(first + bit, agent_, eye_s_); });
+      if (belief_->has_sub_priors) {
+        take_own(first, fresh);
+      }
     }
     work += work::disc_row(cells);
   }
   looking_ = disc.first_row() + row_ <= disc.last_row();
   return work;
+}
+
+void PathScorer::take_own(Cell first, std::uint64_t fresh) noexcept {
+  const int steps = std::min(std::max(step_of(eye_s_), 1) - 1, belief_->sub_prior_steps);
+  Mass mass{};
+  for_each_bit(fresh, [&](int bit) { mass += belief_->sub_mass[index(agent_)][index(first + bit)]; });
+  own_mass_ += mass;
+  own_mass_steps_ += mass * steps;
+}
+
+PlanScore PathScorer::score() const noexcept {
+  PlanScore score = expected_.score(*belief_, max_unseen_mass_);
+  if (belief_->has_sub_priors) {
+    const Mass left = std::max(Mass{}, Mass(1) - own_mass_);
+    score.expected_sub_prior_time_own_s = to_double(own_mass_steps_ + left * belief_->sub_prior_steps) * kStepSeconds;
+  }
+  return score;
 }
 
 // Of a row's cells, those that nothing hides.

@@ -45,7 +45,7 @@ class PathScorer {
   int advance(int rows) noexcept;
   [[nodiscard]] bool done() const noexcept { return phase_ == Phase::kDone; }
   /// When done.
-  [[nodiscard]] PlanScore score() const noexcept { return expected_.score(*belief_, max_unseen_mass_); }
+  [[nodiscard]] PlanScore score() const noexcept;
 
   /// Of the last score: when the agent's path ends, where it last sees something new; 0 when it never does.
   [[nodiscard]] double path_end_s(int agent) const noexcept { return to_double(expected_.path_end_s(agent)); }
@@ -56,6 +56,7 @@ class PathScorer {
   void begin_agent(int agent) noexcept;
   void begin_leg() noexcept;
   int look(int rows) noexcept;
+  void take_own(Cell first, std::uint64_t fresh) noexcept;
   [[nodiscard]] std::uint64_t visible(std::uint64_t word, int row, int byte, int& work) const noexcept;
   void begin_look(Point from, Seconds time_s) noexcept;
 
@@ -78,6 +79,9 @@ class PathScorer {
   SeenMap seen_;  // by the agent whose turn it is
   FirstSightings& sightings_;
   ExpectedTime expected_;
+  // Own reading of Eq. 10: p_m is depleted by agent m alone.
+  Mass own_mass_{};
+  Mass own_mass_steps_{};
 };
 
 }  // namespace ivo::planner

@@ -8,8 +8,12 @@
 namespace ivo::planner {
 namespace {
 
-// Of MMAS, before its best plan is improved.
+// Of MMAS, before its best plan is improved; on a large graph with fewer ants, so that it does not take long.
 constexpr int kFastGenerations = 5;
+constexpr int kFastAntsNodes = 3000;
+constexpr int kFastAntsLeast = 2;
+// Where it cannot be improved, MMAS goes on, and begins anew after so many generations without a better plan.
+constexpr int kRestartAfter = 60;
 
 // Of a part at most: what parts multiply it by stays a whole number.
 constexpr int kMostRows = 1 << 16;
@@ -25,8 +29,16 @@ void Search::start(const ColonyParameters& parameters) noexcept {
                 improver_.open({.max_unseen_mass = parameters.ant.max_unseen_mass, .seed = parameters.seed});
   if (improvable_) {
     colony.generations = std::min(kFastGenerations, parameters.generations);
+    colony.ants =
+        std::min(parameters.ants, std::max(kFastAntsLeast, kFastAntsNodes / std::max(1, world_.graph.nodes())));
   }
-  colony.ant.completes = parameters.profile == Profile::kFast;
+  if (parameters.profile == Profile::kFast) {
+    colony.ant.completes = true;
+    if (colony.heuristic == Heuristic::kTsp) {
+      colony.heuristic = Heuristic::kUnseen;
+    }
+    colony.restart_after = kRestartAfter;
+  }
   colony_.start(colony);
   ready_ = true;
 }

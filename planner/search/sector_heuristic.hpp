@@ -13,8 +13,9 @@
 namespace ivo::planner {
 
 enum class Heuristic : std::uint8_t {
-  kTsp,  ///< eta_TSP = 1 / d
-  kMts,  ///< eta_MTS
+  kTsp,     ///< eta_TSP = 1 / d
+  kMts,     ///< eta_MTS
+  kUnseen,  ///< unseen mass along the way over its length: what the fast profile takes for eta_TSP
 };
 
 class SectorHeuristic {

@@ -141,6 +141,34 @@ TEST(PathScorer, AgreesWithTheNaiveEvaluatorOnPlansAndOnRandomPolylines) {
   EXPECT_GT(complete, 3);
 }
 
+TEST(PathScorer, AgreesWithTheNaiveEvaluatorOnTheOwnReadingOfSubPriors) {
+  std::mt19937_64 random(78);
+  Planner& planner = test::shared_planner();
+  int searches = 0;
+  for (int draw = 0; searches < 12; ++draw) {
+    ASSERT_LT(draw, 400);
+    test::RandomSearch search(random);
+    if (planner.prepare(search.problem()) || !planner.belief().has_sub_priors) {
+      continue;
+    }
+    ++searches;
+    SCOPED_TRACE("draw " + std::to_string(draw));
+    const Polylines polylines = random_polylines(search.problem(), random);
+    const Belief& belief = planner.belief();
+    const auto cells = planner.cells().count();
+    test::NaiveMission mission{planner.cells(), test::as_doubles(belief.mass, cells), {}, 0};
+    mission.sub_prior_steps = belief.sub_prior_steps;
+    mission.reading = test::SubPriorReading::kOwn;
+    std::vector<test::NaivePath> paths;
+    for (std::size_t m = 0; m < polylines.size(); ++m) {
+      mission.sub_priors.push_back(test::as_doubles(belief.sub_mass[m], cells));
+      paths.push_back({polylines[m], search.problem().agents[m].speed_mps, search.problem().agents[m].sight_radius_m});
+    }
+    const double slow_s = test::NaiveEvaluator(std::move(mission), paths).score().expected_sub_prior_time_s;
+    EXPECT_NEAR(score(planner, search.problem(), polylines).expected_sub_prior_time_own_s, slow_s, kStepAgreement);
+  }
+}
+
 TEST(PathScorer, CountsNothingOfAPathThatOnlyGoesBack) {
   const test::DrawnMap map(20, 6, 0.25);
   SearchProblem problem;
