@@ -8,11 +8,12 @@ namespace ivo::planner {
 
 enum class RefusalCode : std::uint8_t {
   kNone,
-  kTooManyCells,      ///< value cells, limit
+  kTooManyCells,      ///< value cells, limit; a row of under 64 takes the room of up to 60
   kTooManySquares,    ///< value squares of the graph, limit
-  kTooManyNodes,      ///< value nodes, limit
+  kTooManyNodes,      ///< value nodes that there would be, at most, limit
   kTooManyEdges,      ///< value directed edges so far, limit
-  kSightTableFull,    ///< value events so far, limit
+  kSightTableFull,    ///< value rows of all swaths, limit (the count ends above the largest profile's)
+  kTooManySwaths,     ///< value swaths of all nodes and edges, limit (likewise)
   kEdgeTooLong,       ///< value sight points of one edge, limit: cells too small for the spacing
   kNoGraphTable,      ///< this build has no libccd and must be given its graph
   kGraphTableUnfit,   ///< a graph that was given is none, or not one for these agents

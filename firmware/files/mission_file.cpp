@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "config/limits.hpp"
+#include "firmware/files/planner_capacity.hpp"
 #include "firmware/files/polygon_checks.hpp"
 #include "firmware/files/text_file.hpp"
 #include "firmware/files/toml_table.hpp"
@@ -182,9 +183,19 @@ AgentSpec read_agent(const TomlValue& table, const std::string& mission_path) {
   return agent;
 }
 
+constexpr std::size_t kMostAgents = 64;  // beyond it a list is no team
+
 std::vector<AgentSpec> read_team(const TomlValue& list, const std::string& mission_path) {
   std::vector<AgentSpec> team;
-  for (const TomlValue& table : list.items(1, limits::kAgents, "[[agent]] tables")) {
+  const std::vector<TomlValue> tables = list.items(1, kMostAgents, "[[agent]] tables");
+  if (tables.size() > limits::kAgents) {
+    list.complain("has " + std::to_string(tables.size()) + " agents, more than this build's " +
+                  std::to_string(limits::kAgents) + "; expected fewer; " +
+                  profile_that_fits(static_cast<double>(tables.size()),
+                                    {limits::Micro::kAgents, limits::Onboard::kAgents, limits::Desktop::kAgents}));
+    return team;
+  }
+  for (const TomlValue& table : tables) {
     team.push_back(read_agent(table, mission_path));
     const AgentSpec& agent = team.back();
     const TomlValue kind = table.optional("kind");

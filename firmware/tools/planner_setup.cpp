@@ -9,6 +9,7 @@
 
 #include "firmware/files/number_text.hpp"
 #include "firmware/files/robot_file.hpp"
+#include "firmware/tools/beyond_capacity.hpp"
 #include "firmware/tools/invalid_problem.hpp"
 
 namespace ivo::firmware {
@@ -31,15 +32,7 @@ constexpr double kFastRho = 0.02;
 
 std::string place(Point p) { return "(" + shortest(p.x_m) + ", " + shortest(p.y_m) + ")"; }
 
-std::string whole(double value) { return shortest(std::round(value)); }
-
 std::string metres(double value) { return shortest(std::round(value * 100) / 100) + " m"; }
-
-std::string larger_profile(double value, int micro, int onboard, int desktop) {
-  const char* fits = value <= micro ? "micro" : value <= onboard ? "onboard" : value <= desktop ? "desktop" : nullptr;
-  return fits != nullptr ? std::string("; the planner profile that fits is ") + fits + " (-DIVO_PLANNER_PROFILE)"
-                         : std::string("; no planner profile is that large");
-}
 
 Error sentence(const planner::Refusal& refusal, const MissionInputs& inputs) {
   using planner::RefusalCode;
@@ -47,30 +40,7 @@ Error sentence(const planner::Refusal& refusal, const MissionInputs& inputs) {
   const Mission& mission = inputs.file.mission;
   const std::string agent_key = "agent[" + std::to_string(refusal.agent) + "]";
   const AgentSpec* agent = refusal.agent >= 0 ? &mission.agents[static_cast<std::size_t>(refusal.agent)] : nullptr;
-  const std::string counts = whole(refusal.value) + ", more than this build's " + whole(refusal.limit);
   switch (refusal.code) {
-    case RefusalCode::kNone:
-      break;
-    case RefusalCode::kTooManyCells:
-      return lines.at("planner.cell_m", "the map has too many cells: " + counts + "; expected a larger cell_m" +
-                                            larger_profile(refusal.value, limits::Micro::kCells,
-                                                           limits::Onboard::kCells, limits::Desktop::kCells));
-    case RefusalCode::kTooManySquares:
-      return lines.at("planner.spacing_m",
-                      "the graph has too many squares: " + counts + "; expected a larger spacing_m");
-    case RefusalCode::kTooManyNodes:
-      return lines.at("planner.spacing_m", "the graph has too many nodes: " + counts + "; expected a larger spacing_m" +
-                                               larger_profile(refusal.value, limits::Micro::kNodes,
-                                                              limits::Onboard::kNodes, limits::Desktop::kNodes));
-    case RefusalCode::kTooManyEdges:
-      return lines.at("planner.spacing_m", "the graph has too many edges: " + counts + "; expected a larger spacing_m");
-    case RefusalCode::kSightTableFull:
-      return lines.at("planner.cell_m",
-                      "the sight table is full at " + whole(refusal.limit) +
-                          " entries; expected a larger cell_m or spacing_m, or a smaller sight_radius_m");
-    case RefusalCode::kEdgeTooLong:
-      return lines.at("planner.cell_m", "an edge has " + whole(refusal.value) + " sight points, more than " +
-                                            whole(refusal.limit) + "; expected a larger cell_m or a smaller spacing_m");
     case RefusalCode::kNoGraphTable:
       return {"this build of the planner cannot prove edges free; expected a graph made by one with libccd"};
     case RefusalCode::kGraphTableUnfit:
@@ -108,9 +78,10 @@ Error sentence(const planner::Refusal& refusal, const MissionInputs& inputs) {
                       "holds a mass of " + (std::isnan(refusal.value) ? "nan" : shortest(refusal.value)) +
                           "; expected finite numbers, 0 or more");
     default:
-      return invalid_problem(refusal, lines);
+      break;
   }
-  return {"the planner refused the mission"};
+  const std::optional<Error> beyond = beyond_capacity(refusal, lines);
+  return beyond ? *beyond : invalid_problem(refusal, lines);
 }
 
 }  // namespace

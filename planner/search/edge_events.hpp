@@ -62,6 +62,9 @@ class EdgeEvents {
     std::int32_t size = 0;
     std::int32_t slot = -1;
   };
+  // The swaths of any edge fit: there are three that may each see the whole map, or more that see less
+  // (sight_table.cpp).
+  static_assert(limits::kSightEvents >= 3 * limits::kCells);
   static constexpr int kBlocks = limits::kSightEvents / 64;
 
   [[nodiscard]] std::size_t slot(int agent, Edge e) const noexcept {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/world/seen_map.hpp"
+
 namespace ivo::planner {
 namespace {
 
@@ -41,8 +43,11 @@ Refusal Cells::build(const SegmentedMap& map, double cell_m) noexcept {
   constexpr double kWhole = 1e-9;  // 40 m / 0.25 m is 160 cells, whatever the rounding
   const double columns = std::ceil(map.width_m() / cell_m - kWhole);
   const double rows = std::ceil(map.height_m() / cell_m - kWhole);
-  if (columns * rows > limits::kCells) {
-    return {.code = RefusalCode::kTooManyCells, .value = columns * rows, .limit = limits::kCells};
+  // On a narrow map windows of 64 columns hang over the ends of the rows (seen_map.hpp).
+  const double taken =
+      rows * (columns < 64.0 ? std::max(columns, 4.0 * SeenMap::stride_of(static_cast<int>(columns))) : columns);
+  if (taken > limits::kCells) {
+    return {.code = RefusalCode::kTooManyCells, .value = taken, .limit = limits::kCells};
   }
   columns_ = static_cast<int>(columns);
   rows_ = static_cast<int>(rows);

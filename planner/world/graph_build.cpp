@@ -126,6 +126,7 @@ Node Graph::merge_target(Point p, int column, int row) const noexcept {
 }
 
 Refusal Graph::place_nodes(const SegmentedMap& map, const GraphParameters& parameters) noexcept {
+  int beyond = 0;  // nodes that there is no room for
   for (int row = 0; row < rows_; ++row) {
     for (int column = 0; column < columns_; ++column) {
       const Square square{column * spacing_m_, row * spacing_m_, std::min((column + 1) * spacing_m_, map.width_m()),
@@ -137,7 +138,8 @@ Refusal Graph::place_nodes(const SegmentedMap& map, const GraphParameters& param
       Node node = merge_target(*place, column, row);
       if (node == kNone) {
         if (nodes_ == limits::kNodes) {
-          return {.code = RefusalCode::kTooManyNodes, .value = nodes_ + 1.0, .limit = limits::kNodes};
+          ++beyond;
+          continue;
         }
         node = nodes_++;
         positions_[index(node)] = *place;
@@ -147,6 +149,9 @@ Refusal Graph::place_nodes(const SegmentedMap& map, const GraphParameters& param
       next_square_[index(number)] = first_square_[index(node)];
       first_square_[index(node)] = number;
     }
+  }
+  if (beyond > 0) {
+    return {.code = RefusalCode::kTooManyNodes, .value = nodes_ + static_cast<double>(beyond), .limit = limits::kNodes};
   }
   return {};
 }

@@ -10,8 +10,8 @@
 namespace ivo::planner {
 namespace {
 
-Refusal full(int words) noexcept {
-  return {.code = RefusalCode::kSightTableFull, .value = static_cast<double>(words), .limit = limits::kSightWords};
+Refusal too_much(RefusalCode code, int value, int limit) noexcept {
+  return {.code = code, .value = static_cast<double>(value), .limit = static_cast<double>(limit)};
 }
 
 }  // namespace
@@ -31,7 +31,26 @@ Refusal SightTable::build(const Cells& cells, const Graph& graph, const SightRad
       return refusal;
     }
   }
-  return {};
+  return shortage();
+}
+
+bool SightTable::fits() const noexcept { return word_count_ <= limits::kSightWords && swath_count_ <= limits::kSwaths; }
+
+// Then it need not be counted on.
+bool SightTable::fits_nowhere() const noexcept {
+  return word_count_ > std::max(limits::kSightWords, limits::Desktop::kSightWords) ||
+         swath_count_ > std::max(limits::kSwaths, limits::Desktop::kSwaths);
+}
+
+// The capacity that is short by more.
+Refusal SightTable::shortage() const noexcept {
+  if (fits()) {
+    return {};
+  }
+  const double words = static_cast<double>(word_count_) / limits::kSightWords;
+  const double swaths = static_cast<double>(swath_count_) / limits::kSwaths;
+  return words >= swaths ? too_much(RefusalCode::kSightTableFull, word_count_, limits::kSightWords)
+                         : too_much(RefusalCode::kTooManySwaths, swath_count_, limits::kSwaths);
 }
 
 void SightTable::assign_layers(const Graph& graph, const SightRadii& radii_m) noexcept {
@@ -61,8 +80,9 @@ Refusal SightTable::add_nodes(const Cells& cells, const Graph& graph, int layer)
       continue;
     }
     paint(cells, graph.position(n), layer_radius_m_[index(layer)]);
-    if (const Refusal refusal = cut(cells, 0, 0, agents)) {
-      return refusal;
+    cut(cells, 0, 0, agents);
+    if (fits_nowhere()) {
+      return shortage();
     }
     record.count = swath_count_ - record.first;
   }
@@ -113,8 +133,9 @@ Refusal SightTable::add_edge(const Cells& cells, Point a, Point b, int points, d
     for (int k = first; k <= last; ++k) {
       paint(cells, sight_point(a, b, k, points), radius_m);
     }
-    if (const Refusal refusal = cut(cells, first, last, agents)) {
-      return refusal;
+    cut(cells, first, last, agents);
+    if (fits_nowhere()) {
+      return shortage();
     }
   }
   record.count = swath_count_ - record.first;
@@ -145,42 +166,51 @@ void SightTable::paint(const Cells& cells, Point from, double radius_m) noexcept
 }
 
 // What was painted becomes swaths, one a window of 64 columns; the canvas is empty again.
-Refusal SightTable::cut(const Cells& cells, int first_point, int last_point, AgentSet agents) noexcept {
+void SightTable::cut(const Cells& cells, int first_point, int last_point, AgentSet agents) noexcept {
   for (int byte = painted_.first_column / 8; byte * 8 <= painted_.last_column; byte += 8) {
-    Swath swath{.first_row = painted_.first_row,
-                .first_byte = byte,
-                .first_word = word_count_,
-                .rows = 0,
-                .first_point = static_cast<std::int16_t>(first_point),
-                .last_point = static_cast<std::int16_t>(last_point)};
+    int first_row = -1;
     int last_row = -1;
     for (int row = painted_.first_row; row <= painted_.last_row; ++row) {
-      const std::uint64_t word = canvas_.window(row, byte);
-      if (word != 0) {
-        swath.first_row = last_row < 0 ? row : swath.first_row;
+      if (canvas_.window(row, byte) != 0) {
+        first_row = last_row < 0 ? row : first_row;
         last_row = row;
       }
     }
     if (last_row < 0) {
       continue;
     }
-    swath.rows = static_cast<std::int16_t>(last_row - swath.first_row + 1);
-    if (word_count_ + swath.rows > limits::kSightWords || swath_count_ == limits::kSwaths) {
-      return full(word_count_ + swath.rows);
-    }
-    for (int row = swath.first_row; row <= last_row; ++row) {
-      const std::uint64_t word = canvas_.window(row, byte);
-      words_[index(word_count_++)] = word;
-      canvas_.set_window(row, byte, 0);
-      for_each_bit(word, [&](int bit) {
-        AgentSet& by = observable_by_[index(canvas_.cell(row, byte, bit))];
-        by = static_cast<AgentSet>(by | agents);
-      });
-    }
-    swaths_[index(swath_count_++)] = swath;
+    keep({.first_row = first_row,
+          .first_byte = byte,
+          .first_word = word_count_,
+          .rows = static_cast<std::int16_t>(last_row - first_row + 1),
+          .first_point = static_cast<std::int16_t>(first_point),
+          .last_point = static_cast<std::int16_t>(last_point)},
+         agents);
   }
   painted_ = {cells.columns(), cells.rows(), -1, -1};
-  return {};
+}
+
+void SightTable::keep(const Swath& swath, AgentSet agents) noexcept {
+  const int first = word_count_;
+  word_count_ += swath.rows;
+  ++swath_count_;
+  const bool kept = fits();
+  for (int i = 0; i < swath.rows; ++i) {
+    const int row = swath.first_row + i;
+    const std::uint64_t word = canvas_.window(row, swath.first_byte);
+    canvas_.set_window(row, swath.first_byte, 0);
+    if (!kept) {
+      continue;
+    }
+    words_[index(first + i)] = word;
+    for_each_bit(word, [&](int bit) {
+      AgentSet& by = observable_by_[index(canvas_.cell(row, swath.first_byte, bit))];
+      by = static_cast<AgentSet>(by | agents);
+    });
+  }
+  if (kept) {
+    swaths_[index(swath_count_ - 1)] = swath;
+  }
 }
 
 }  // namespace ivo::planner

@@ -33,8 +33,8 @@ class SightTable {
   /// Most sight points of an edge.
   static constexpr int kMaxPoint = 1023;
 
-  /// Agents of one radius share their records. Cost: each edge's sight points times the disc's rows where nothing
-  /// hides, times its cells elsewhere.
+  /// Agents of one radius share their records. Refuses what is over a capacity, with what all of it would take. Cost:
+  /// each edge's sight points times the disc's rows where nothing hides, times its cells elsewhere.
   [[nodiscard]] Refusal build(const Cells& cells, const Graph& graph, const SightRadii& radii_m) noexcept;
 
   /// What an agent sees from a node: one point.
@@ -74,7 +74,11 @@ class SightTable {
   [[nodiscard]] Refusal add_edge(const Cells& cells, Point a, Point b, int points, double radius_m, Record& record,
                                  AgentSet agents) noexcept;
   void paint(const Cells& cells, Point from, double radius_m) noexcept;
-  [[nodiscard]] Refusal cut(const Cells& cells, int first_point, int last_point, AgentSet agents) noexcept;
+  void cut(const Cells& cells, int first_point, int last_point, AgentSet agents) noexcept;
+  void keep(const Swath& swath, AgentSet agents) noexcept;
+  [[nodiscard]] bool fits() const noexcept;
+  [[nodiscard]] bool fits_nowhere() const noexcept;
+  [[nodiscard]] Refusal shortage() const noexcept;
 
   // A layer is one radius and the agents that have it.
   int layers_ = 0;
@@ -82,7 +86,7 @@ class SightTable {
   std::array<AgentSet, limits::kAgents> layer_agents_{};
   std::array<int, limits::kAgents> layer_of_agent_{};
 
-  int word_count_ = 0;
+  int word_count_ = 0;  // what is kept, and beyond a capacity what would be
   int swath_count_ = 0;
   std::array<std::uint64_t, limits::kSightWords> words_{};
   std::array<Swath, limits::kSwaths> swaths_{};

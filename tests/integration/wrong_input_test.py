@@ -59,7 +59,7 @@ CASES = {
                             ["mission.toml:25: agent[1].restricted[0]", "outside the map"]),
     "an object in a wall": (MISSION.replace('"drawn"', "[5.0, 9.0]"), NORTH_WALL, ["mission.toml:4: object", "building"]),
     "an object outside": (MISSION.replace('"drawn"', "[50.0, 1.0]"), None, ["mission.toml:4: object", "outside the map"]),
-    "too many cells": (MISSION.replace("[planner]", "[planner]\ncell_m = 0.01"), None, ["cell_m", "too many cells", "desktop"]),
+    "too many cells": (MISSION.replace("[planner]", "[planner]\ncell_m = 0.01"), None, ["planner.cell_m: the map has too many cells: 1440000, more than this build's 1048576; expected a larger cell_m; the planner profile that fits is desktop"]),
     "two robots": (MISSION.replace('kind = "person"', 'kind = "robot"\nrobot = "x.toml"'), None, ["mission.toml:", "robot"]),
     "a robot file that is not there": (MISSION.replace("ivo.toml", "nobody.toml"), None, ["mission.toml:14: agent[0].robot:", "nobody.toml"]),
 }

@@ -31,7 +31,10 @@ std::string refusal_text(const planner::Refusal& refusal) {
       what = "edges";
       break;
     case kSightTableFull:
-      what = "sight table entries";
+      what = "sight table rows";
+      break;
+    case kTooManySwaths:
+      what = "swaths";
       break;
     default:
       return std::string("the planner refuses ") + what;

@@ -227,15 +227,26 @@ TEST(MissionFile, RefusesOneNameForTwo) {
             "m.toml:14: agent[1].name: \"IVO\" is another agent's name; expected a name of its own");
 }
 
-TEST(MissionFile, RefusesMoreAgentsThanThePlannerHolds) {
+std::string team_of(int agents) {
   std::string text = kMission;
-  for (int i = 2; i <= limits::kAgents; ++i) {
+  for (int i = 2; i < agents; ++i) {
     text += "[[agent]]\nname = 'P" + std::to_string(i) +
             "'\nkind = 'person'\nstart_m = [3, 4]\nspeed_mps = 1\nsight_radius_m = 1\n";
   }
-  const std::string most = std::to_string(limits::kAgents);
-  EXPECT_EQ(complaint_of(text), "m.toml:5: agent: has " + std::to_string(limits::kAgents + 1) +
-                                    " elements; expected a list of 1 to " + most + " [[agent]] tables");
+  return text;
+}
+
+TEST(MissionFile, RefusesMoreAgentsThanThePlannerHoldsWithTheProfileThatFits) {
+  const int most = limits::kAgents;
+  const std::string fits =
+      most + 1 <= limits::Onboard::kAgents   ? "the planner profile that fits is onboard (-DIVO_PLANNER_PROFILE)"
+      : most + 1 <= limits::Desktop::kAgents ? "the planner profile that fits is desktop (-DIVO_PLANNER_PROFILE)"
+                                             : "no planner profile is that large";
+  EXPECT_EQ(complaint_of(team_of(most + 1)), "m.toml:5: agent: has " + std::to_string(most + 1) +
+                                                 " agents, more than this build's " + std::to_string(most) +
+                                                 "; expected fewer; " + fits);
+  EXPECT_EQ(complaint_of(team_of(9)), "m.toml:5: agent: has 9 agents, more than this build's " + std::to_string(most) +
+                                          "; expected fewer; no planner profile is that large");
 }
 
 TEST(MissionFile, RefusesWhatBelongsToTheOtherKind) {
