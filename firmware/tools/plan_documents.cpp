@@ -51,7 +51,12 @@ std::string bound_text(const PlanView& view, const planner::PlanScore& score) {
   const std::string text =
       format("%.1f s, strict %.1f s; ET_c %.1f s", std::max(bounds.area_s, bounds.reach_s),
              std::max(bounds.area_strict_s, bounds.reach_strict_s), score.expected_time_continuous_s);
-  return bounds.gap ? text + format(" is %.1f %% above", 100 * *bounds.gap) : text;
+  if (!bounds.gap) {
+    return text;
+  }
+  // Cells count at their centres: coarse ones let a plan see more than its discs cover.
+  return *bounds.gap >= 0.0 ? text + format(" is %.1f %% above", 100 * *bounds.gap)
+                            : text + format(" is %.1f %% below the first: the cells are coarse", -100 * *bounds.gap);
 }
 
 std::string score_text(const PlanView& view, const planner::PlanScore& score) {

@@ -47,7 +47,7 @@ void show_mission(const PlanView& view) {
              view.planner.cells().count(), mission.planner.cell_m, 100 * view.planner.belief().unobservable_share));
   for (std::size_t m = 0; m < mission.agents.size(); ++m) {
     if (view.planner.graph().nodes_reached_by(static_cast<int>(m)) == 1) {
-      say("note", mission.agents[m].name + " can go nowhere from its start and searches what it sees from there");
+      say("note", mission.agents[m].name + " reaches no other node of the graph from its start");
     }
     if (planner::in(view.planner.left_without_sub_prior(), static_cast<int>(m))) {
       say("note", mission.agents[m].name + " has no probability of its own left and searches the whole prior");
