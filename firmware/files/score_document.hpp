@@ -16,7 +16,7 @@ inline constexpr std::array<const char*, kAgentKinds> kAgentKindWords = {"robot"
 struct ScoreDocument {
   double expected_time_s = 0.0;
   double expected_time_continuous_s = 0.0;
-  std::optional<double> expected_sub_prior_time_s;  ///< none without sub-priors
+  std::optional<double> expected_sub_prior_time_s;      ///< none without sub-priors
   std::optional<double> expected_sub_prior_time_own_s;  ///< own reading; only where it was asked for
   double unseen_mass = 1.0;
   double horizon_s = 0.0;
