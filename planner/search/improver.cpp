@@ -706,7 +706,8 @@ void Improver::learn_from(const Improver& other) noexcept {
   }
 }
 
-// The plan is shown only when it is better by the exact score.
+// The plan is shown only when it is better by the exact score. Where that finds more unseen than the judge does, the judge
+// asks for more from then on.
 int Improver::take_score() noexcept {
   PlanScore score = scorer_.score();
   score.expected_sub_prior_time_own_s = 0.0;  // not asked for: as MMAS's own plans have it
@@ -719,6 +720,15 @@ int Improver::take_score() noexcept {
       best_end_s_[index(m)] = scorer_.path_end_s(m);
       work += static_cast<int>(best_[index(m)].size());
     }
+  }
+  const double excess = score.unseen_mass - parameters_.max_unseen_mass;
+  if (score.complete) {
+    judge_.demand(judge_.demanded() + excess / 4);
+  } else if (remembered_complete_) {
+    judge_.demand(judge_.demanded() + excess);
+    recall();
+    recalls_learned_ = true;
+    return work;
   }
   if (round_done_ >= round_length_) {
     ++round_;

@@ -25,7 +25,8 @@ void RouteJudge::open(const Cells& cells, const Belief& belief, const std::array
   belief_ = &belief;
   agents_ = belief.agents;
   paces_ = paces;
-  max_unseen_ = mass_from(max_unseen_mass);
+  may_stay_unseen_ = max_unseen_mass;
+  demand(0.0);
   horizon_s_ = Seconds(belief.sub_prior_steps);
   planes_.build(cells, belief, belief.mass);
   for (int m = 0; belief.has_sub_priors && m < agents_; ++m) {
@@ -34,6 +35,11 @@ void RouteJudge::open(const Cells& cells, const Belief& belief, const std::array
   kept_count_ = 0;
   keep_every_s_ = Seconds{};
   done_ = true;
+}
+
+void RouteJudge::demand(double mass) noexcept {
+  demanded_ = std::clamp(mass, 0.0, 0.75 * may_stay_unseen_);
+  max_unseen_ = mass_from(may_stay_unseen_ - demanded_);
 }
 
 int RouteJudge::start(const Route& route, Seconds changed_s) noexcept {

@@ -36,6 +36,10 @@ class RouteJudge {
   void accept() noexcept;
   /// Up to about `rows` rows. Returns the work done.
   int advance(int rows) noexcept;
+  /// Takes for complete only what sees so much more than must be seen, cut to a part of what may stay unseen. What was
+  /// judged before is to be judged anew.
+  void demand(double mass) noexcept;
+  [[nodiscard]] double demanded() const noexcept { return demanded_; }
   [[nodiscard]] bool done() const noexcept { return done_; }
   [[nodiscard]] const Judgement& judgement() const noexcept { return judgement_; }
   [[nodiscard]] Seconds seconds_along(int agent, std::int32_t segment) const noexcept {
@@ -74,6 +78,8 @@ class RouteJudge {
   const SegmentPool& pool_;
   const Belief* belief_ = nullptr;
   int agents_ = 0;
+  double may_stay_unseen_ = 0.0;
+  double demanded_ = 0.0;
   Mass max_unseen_{};
   Seconds horizon_s_{};  // K of EST
   std::array<SecondsAMetre, limits::kAgents> paces_{};
