@@ -33,7 +33,7 @@ void Colony::start(const ColonyParameters& parameters) noexcept {
   generation_ = 0;
   bettered_ = 0;
   ants_done_ = 0;
-  ants_over_ = false;
+  contending_ = 0;
   has_best_ = false;
   (void)begin_generation();
 }
@@ -55,7 +55,8 @@ int Colony::advance(int rows) noexcept {
       return ant_.done() ? end_ant() : ant_.advance(rng_, rows);
     case Phase::kScoreBest:
     case Phase::kScoreAnt:
-      return scorer_.done() ? (ants_over_ ? take_generation_best() : compare()) : scorer_.advance(rows);
+      return scorer_.done() ? (phase_ == Phase::kScoreBest ? take_generation_best() : contend())
+                            : scorer_.advance(rows);
     case Phase::kRaise:
     case Phase::kEvaporate:
     case Phase::kClamp:
@@ -87,54 +88,65 @@ void Colony::score(Tour& tour, Phase phase) noexcept {
 }
 
 int Colony::end_ant() noexcept {
-  if (ants_done_ == 0) {
-    ant_.finish(generation_best_);
-    if (world_.belief.has_sub_priors) {
-      generation_best_.cost = {Mass{}, Mass(1 << 20)};  // Eq. 8 says nothing of EST
-    }
-    return next_ant(edges_of(generation_best_));
-  }
-  ant_.finish(candidate_);
+  Tour& tour = contenders_[index(contending_++)];
+  ant_.finish(tour);
   if (world_.belief.has_sub_priors) {
-    candidate_.cost = {Mass{}, Mass(1 << 20)};
+    tour.cost = {Mass{}, Mass(1 << 20)};  // Eq. 8 says nothing of EST
   }
-  return compare() + edges_of(candidate_);
+  ++ants_done_;
+  return edges_of(tour) + contend();
 }
 
-// Of the ant that is done and the best before it in this generation; the earlier one where both are equal.
-int Colony::compare() noexcept {
-  Tour& best = generation_best_;
-  Tour& ant = candidate_;
-  if (better(ant, best)) {
-    best.assign(ant);
-    return next_ant(edges_of(ant));
+// Those of the generation's ants that may be its best: as long as one can be told from the others by its bounds, none
+// is scored. The earlier one where two are equal.
+int Colony::contend() noexcept {
+  drop_the_beaten();
+  const bool ants_over = ants_done_ == parameters_.ants;
+  if (contending_ == 1 && ants_over) {
+    generation_best_.assign(contenders_[0]);
+    return edges_of(generation_best_) + end_generation();
+  }
+  if (ants_over || contending_ == kContenders) {
+    const auto by_low = [](const Tour& a, const Tour& b) {
+      return a.scored != b.scored ? !a.scored : a.cost.low < b.cost.low;
+    };
+    score(*std::min_element(contenders_.begin(), contenders_.begin() + contending_, by_low), Phase::kScoreAnt);
+    return contending_;
+  }
+  return begin_ant();
+}
+
+void Colony::drop_the_beaten() noexcept {
+  int best = 0;
+  for (int i = 1; i < contending_; ++i) {
+    const Tour& a = contenders_[index(i)];
+    const Tour& b = contenders_[index(best)];
+    const bool ahead = a.complete != b.complete ? a.complete
+                       : a.complete             ? a.cost.high < b.cost.high
+                                                : a.unseen < b.unseen;
+    best = ahead ? i : best;
   }
   // Where the best so far deposits, an ant matters only when it may be better than that.
-  const bool beaten = !deposits_iteration_best_ && has_best_ && best_.complete;
-  const bool surely_not = ant.complete != best.complete || !ant.complete || ant.cost.low >= best.cost.high ||
-                          (beaten && ant.cost.low >= best_.cost.high);
-  if (surely_not) {
-    return next_ant(1);
+  const bool must_beat_best = !deposits_iteration_best_ && has_best_ && best_.complete;
+  const Tour& ahead = contenders_[index(best)];
+  int kept = 0;
+  for (int i = 0; i < contending_; ++i) {
+    const Tour& tour = contenders_[index(i)];
+    const bool beaten = !ahead.complete || !tour.complete || tour.cost.low >= ahead.cost.high ||
+                        (must_beat_best && tour.cost.low >= best_.cost.high);
+    if (i == best || !beaten) {
+      if (kept != i) {
+        contenders_[index(kept)].assign(tour);
+      }
+      ++kept;
+    }
   }
-  if (!best.scored) {
-    score(best, Phase::kScoreBest);
-  } else {
-    score(ant, Phase::kScoreAnt);
-  }
-  return 1;
-}
-
-int Colony::next_ant(int work) noexcept {
-  ++ants_done_;
-  if (ants_done_ < parameters_.ants) {
-    return work + begin_ant();
-  }
-  return work + end_generation();
+  contending_ = kept;
 }
 
 int Colony::end_generation() noexcept {
   ants_done_ = 0;
-  ants_over_ = true;
+  contending_ = 0;
   ++generation_;
   const Tour& tour = generation_best_;
   const bool may_be_best =
@@ -147,7 +159,6 @@ int Colony::end_generation() noexcept {
 }
 
 int Colony::take_generation_best() noexcept {
-  ants_over_ = false;
   if (!has_best_ || (generation_best_.scored && better_to_show(generation_best_, best_))) {
     set_best(generation_best_);
   }

@@ -3,6 +3,7 @@
 // decisions are those of scoring every ant.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "planner/search/ant.hpp"
@@ -56,8 +57,8 @@ class Colony {
 
  private:
   int end_ant() noexcept;
-  int compare() noexcept;
-  int next_ant(int work) noexcept;
+  int contend() noexcept;
+  void drop_the_beaten() noexcept;
   int begin_generation() noexcept;
   int begin_ant() noexcept;
   int end_generation() noexcept;
@@ -81,12 +82,13 @@ class Colony {
   int generation_ = 0;
   int bettered_ = 0;   // generation of the best so far, or of the last restart
   int ants_done_ = 0;  // of this generation
-  bool ants_over_ = false;
   bool deposits_iteration_best_ = false;
   int sweep_agent_ = 0;
   Edge sweep_edge_ = 0;
   bool has_best_ = false;
-  Tour candidate_;
+  static constexpr int kContenders = 4;
+  std::array<Tour, kContenders> contenders_;  // of this generation, in the order of the ants
+  int contending_ = 0;
   Tour generation_best_;
   Tour best_;
 };

@@ -26,7 +26,9 @@ void ExpectedTime::add(const Belief& belief, const FirstSightings& sightings, in
       sums.sub_mass_steps_ += q * std::min(steps, belief.sub_prior_steps);
     }
     sums.extend_path(s.agent, s.time_s);
-    sums.extend_path(s.credited, s.credited_time_s);
+    if (s.credited != s.agent) {
+      sums.extend_path(s.credited, s.credited_time_s);
+    }
   }
   *this = sums;
 }

@@ -61,8 +61,14 @@ void Search::step(Budget budget) noexcept {
   last_slice_was_full_ = left <= 0;
 }
 
+int Search::generation() const noexcept { return colony_.generation() + (improving_ ? improver_.generation() : 0); }
+
+bool Search::done() const noexcept {
+  return !ready_ || (colony_.done() && (!improves() || generation() >= parameters_.generations));
+}
+
 SliceKind Search::kind() const noexcept {
-  if (progress().done) {
+  if (done()) {
     return SliceKind::kNone;
   }
   if (!improving_) {
@@ -92,16 +98,11 @@ SliceKind Search::kind() const noexcept {
 }
 
 Progress Search::progress() const noexcept {
-  Progress progress{.generation = colony_.generation(),
+  Progress progress{.generation = generation(),
                     .generations = parameters_.generations,
-                    .done = !ready_,
+                    .done = done(),
                     .has_plan = ready_ && colony_.has_best(),
                     .best = {}};
-  if (!ready_) {
-    return progress;
-  }
-  progress.generation += improving_ ? improver_.generation() : 0;
-  progress.done = colony_.done() && (!improves() || progress.generation >= parameters_.generations);
   if (progress.has_plan) {
     progress.best = improved() ? improver_.best_score() : colony_.best().score;
   }

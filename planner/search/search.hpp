@@ -56,6 +56,8 @@ class Search {
  private:
   [[nodiscard]] bool improves() const noexcept { return parameters_.profile == Profile::kFast && improvable_; }
   [[nodiscard]] bool improved() const noexcept { return improves() && improver_.has_best(); }
+  [[nodiscard]] int generation() const noexcept;
+  [[nodiscard]] bool done() const noexcept;
   [[nodiscard]] SliceKind kind() const noexcept;
   void cut(AgentPath& path, double end_s, double speed_mps) const noexcept;
 
