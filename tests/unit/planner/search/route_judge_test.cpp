@@ -212,7 +212,7 @@ TEST(RouteJudge, JudgesFromAStateItKeptAsItDoesFromTheStart) {
       }
     }
   }
-  EXPECT_GT(late, 400);
+  EXPECT_GT(late, kFixedPoint ? 200 : 400);  // without libccd fewer changes are proved free
   EXPECT_GT(complete, 50);
   EXPECT_GT(with_sub_priors, 3);
 }
