@@ -706,8 +706,8 @@ void Improver::learn_from(const Improver& other) noexcept {
   }
 }
 
-// The plan is shown only when it is better by the exact score. Where that finds more unseen than the judge does, the judge
-// asks for more from then on.
+// The plan is shown only when it is better by the exact score. Where that finds more unseen than the judge does, the
+// judge asks for more from then on.
 int Improver::take_score() noexcept {
   PlanScore score = scorer_.score();
   score.expected_sub_prior_time_own_s = 0.0;  // not asked for: as MMAS's own plans have it

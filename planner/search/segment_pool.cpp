@@ -23,8 +23,8 @@ bool SegmentPool::open() noexcept {
   int discs = 0;
   double widest_m = 0.0;
   for (std::size_t m = 0; m < bodies.size(); ++m) {
-    // What lies on the rim is seen from the sight points alone, and those are up to half a cell apart: a sweep that took
-    // it for seen all along would be a way to see what nobody sees.
+    // What lies on the rim is seen from the sight points alone, and those are up to half a cell apart: a sweep that
+    // took it for seen all along would be a way to see what nobody sees.
     const double r_m = bodies[m].sight_radius_m;
     const double off_m = std::min(r_m, 0.25 * cells.cell_m());
     const auto radius = static_cast<std::int32_t>(std::sqrt(r_m * r_m - off_m * off_m) * kTicksAMetre);
