@@ -48,9 +48,8 @@ BoundsDocument bounds_of(const PlanView& view, const planner::PlanScore& score) 
 
 std::string bound_text(const PlanView& view, const planner::PlanScore& score) {
   const BoundsDocument bounds = bounds_of(view, score);
-  const std::string text =
-      format("%.1f s, strict %.1f s; ET_c %.1f s", std::max(bounds.area_s, bounds.reach_s),
-             std::max(bounds.area_strict_s, bounds.reach_strict_s), score.expected_time_continuous_s);
+  std::string text = format("%.1f s, strict %.1f s; ET_c %.1f s", std::max(bounds.area_s, bounds.reach_s),
+                            std::max(bounds.area_strict_s, bounds.reach_strict_s), score.expected_time_continuous_s);
   if (!bounds.gap) {
     return text;
   }

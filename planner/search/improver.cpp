@@ -280,16 +280,14 @@ int Improver::make(int rows) noexcept {
   work_ = 1;
   while (work_ <= rows && wish_ < wishes_.size()) {
     Wish& wish = wishes_[wish_];
-    if (!wish.wanted) {
-      ++wish_;
-    } else if (wish.segment < 0) {
+    if (wish.wanted && wish.segment < 0) {
       wish.segment = pool_.begin(wish.agent, wish.from, wish.to, work_);
       if (wish.segment < 0) {
         reject();
         after_proposal();
         return work_;
       }
-    } else if (pool_.make_rows(work_, rows + 1)) {
+    } else if (!wish.wanted || pool_.make_rows(work_, rows + 1)) {
       ++wish_;
     }
   }
@@ -663,7 +661,8 @@ int Improver::begin_round() noexcept {
 
 void Improver::set_temperature() noexcept {
   const auto stage = static_cast<std::size_t>(std::int64_t{round_done_} * 64 / round_length_);
-  temperature_ = hottest_ / 256 * (cooling_[stage] / 256);
+  const std::int32_t cooling = cooling_[stage] / 256;  // 8 bits behind the point
+  temperature_ = hottest_ / 256 * cooling;
 }
 
 void Improver::start_score() noexcept {
