@@ -16,11 +16,11 @@ inline constexpr std::array<const char*, kAgentKinds> kAgentKindWords = {"robot"
 struct ScoreDocument {
   double expected_time_s = 0.0;
   double expected_time_continuous_s = 0.0;
-  std::optional<double> expected_sub_prior_time_s;      ///< none without sub-priors
-  std::optional<double> expected_sub_prior_time_own_s;  ///< own reading; only where it was asked for
+  std::optional<double> expected_sub_prior_time_s;  ///< none without sub-priors
   double unseen_mass = 1.0;
   double horizon_s = 0.0;
   bool complete = false;
+  std::optional<double> expected_sub_prior_time_own_s = {};  ///< own reading; only where it was asked for
 };
 
 /// Least expected times, ET_c, of any plan that leaves as much unseen, as planner::Bounds defines them, and how far

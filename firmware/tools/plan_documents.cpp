@@ -73,12 +73,12 @@ ScoreDocument score_document(const PlanView& view, const planner::PlanScore& sco
           .expected_time_continuous_s = score.expected_time_continuous_s,
           .expected_sub_prior_time_s =
               view.planner.belief().has_sub_priors ? std::optional(score.expected_sub_prior_time_s) : std::nullopt,
-          .expected_sub_prior_time_own_s = score.expected_sub_prior_time_own_s > 0.0
-                                               ? std::optional(score.expected_sub_prior_time_own_s)
-                                               : std::nullopt,
           .unseen_mass = score.unseen_mass,
           .horizon_s = score.horizon_s,
-          .complete = score.complete};
+          .complete = score.complete,
+          .expected_sub_prior_time_own_s = score.expected_sub_prior_time_own_s > 0.0
+                                               ? std::optional(score.expected_sub_prior_time_own_s)
+                                               : std::nullopt};
 }
 
 PlanDocument plan_document(const PlanView& view, const planner::Plan& plan, const PlanSearch& search) {

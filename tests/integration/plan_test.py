@@ -38,7 +38,7 @@ class Plan(unittest.TestCase):
         with open(os.path.join(self.out, "search.png"), "rb") as file:
             self.assertTrue(file.read().startswith(b"\x89PNG"))
         plan = read_json(self.out, "plan.json")
-        self.assertEqual(plan["generations_done"], 40)
+        self.assertEqual(plan["generations_done"], 20)
         self.assertEqual([agent["name"] for agent in plan["agents"]], ["IVO", "Ana"])
         for words in ("ET ", "ET_c", "EST", "unseen", "bound", "strict", "unobservable", "IVO: ", "Ana: ", "graph and tables", "search "):
             self.assertIn(words, done.stdout)
