@@ -25,7 +25,7 @@ inline constexpr Duration kUnaskedPowerTimeout = 100ms;  // a drive may be power
 inline constexpr Duration kStandstillTimeout = 3s;       // from a stop to wheels at rest
 inline constexpr Duration kStandstillDwell = 50ms;       // a wheel rests when it has not moved for so long
 
-inline constexpr int kPlannerUnitsPerCycle = 40'000;  // planner work (planner/search/search.hpp): half a cycle or so
+inline constexpr int kPlannerUnitsPerCycle = 100'000;  // planner work (planner/search/search.hpp): half a millisecond
 
 static_assert(kMasterHeartbeatTimeout >= 3 * kMasterHeartbeat, "two lost heartbeats are not a dead master");
 static_assert(kDriveHeartbeatTimeout >= 3 * kDriveHeartbeat, "two lost heartbeats are not a dead drive");

@@ -205,11 +205,16 @@ void ControlLoop::write(const Twist& passed) noexcept {
 
 // Last, in what is left of the cycle: SYNC and targets never wait for a thought.
 void ControlLoop::think() noexcept {
-  if (!permissions(mode_).think || plan_ready_) {
-    return;
+  int left = rates::kPlannerUnitsPerCycle;
+  while (left > 0 && permissions(mode_).think && !plan_ready_) {
+    think_a_slice({left});
+    left -= std::max(1, planner_.last_slice_units());
   }
+}
+
+void ControlLoop::think_a_slice(planner::Budget budget) noexcept {
   const planner::Progress before = planner_.progress();
-  const planner::Progress progress = planner_.step({rates::kPlannerUnitsPerCycle});
+  const planner::Progress progress = planner_.step(budget);
   if (progress.has_plan && (!before.has_plan || progress.best.expected_time_s != before.best.expected_time_s)) {
     record(EventKind::kPlanImproved, 0, progress.generation,
            {progress.best.expected_time_s, progress.best.unseen_mass});

@@ -68,6 +68,7 @@ class ControlLoop {
   [[nodiscard]] Twist pass_gate(const Twist& limited) noexcept;
   void write(const Twist& passed) noexcept;
   void think() noexcept;
+  void think_a_slice(planner::Budget budget) noexcept;
   void publish() noexcept;
 
   void begin_search() noexcept;

@@ -12,7 +12,7 @@
 namespace ivo::firmware {
 namespace {
 
-constexpr planner::Budget kPart{20'000};
+constexpr planner::Budget kPart{100'000};
 constexpr std::chrono::milliseconds kSlice{20};
 
 constexpr std::size_t kSearchMegabytes = (sizeof(planner::Search) + 999'999) / 1'000'000;

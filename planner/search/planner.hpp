@@ -59,6 +59,7 @@ class Planner {
   [[nodiscard]] Progress progress() const noexcept { return search_.progress(); }
   [[nodiscard]] SliceKind last_slice_kind() const noexcept { return search_.last_slice(); }
   [[nodiscard]] bool last_slice_was_full() const noexcept { return search_.last_slice_was_full(); }
+  [[nodiscard]] int last_slice_units() const noexcept { return search_.last_slice_units(); }
   void best_plan(Plan& plan) const noexcept { search_.best_plan(plan); }
 
   /// The first of the searches on these tables; others may be made on world() and started with parameters().

@@ -59,6 +59,7 @@ void Search::step(Budget budget) noexcept {
     }
   }
   last_slice_was_full_ = left <= 0;
+  last_slice_units_ = budget.units - left;
 }
 
 int Search::generation() const noexcept { return colony_.generation() + (improving_ ? improver_.generation() : 0); }

@@ -44,6 +44,8 @@ class Search {
   [[nodiscard]] SliceKind last_slice() const noexcept { return last_slice_; }
   /// The last slice used up its budget: it did not end early, with its kind or with the search.
   [[nodiscard]] bool last_slice_was_full() const noexcept { return last_slice_was_full_; }
+  /// What it came to: less than its budget where its kind ended.
+  [[nodiscard]] int last_slice_units() const noexcept { return last_slice_units_; }
   [[nodiscard]] Progress progress() const noexcept;
 
   /// The best plan so far: complete plans by cost (EST with sub-priors, else ET in the paper's profile and ET_c in the
@@ -69,6 +71,7 @@ class Search {
   bool improvable_ = false;
   bool improving_ = false;
   bool ready_ = false;
+  int last_slice_units_ = 0;
   SliceKind last_slice_ = SliceKind::kNone;
   bool last_slice_was_full_ = false;
 

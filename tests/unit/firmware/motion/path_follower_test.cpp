@@ -173,6 +173,19 @@ TEST(PathFollower, TakesLittleLongerThanLengthOverSpeedOnGentlePaths) {
   }
 }
 
+// The fast profile's plan of the courtyard: waypoints off the graph, short legs and sharp turns.
+TEST(PathFollower, FollowsAnImprovedPlanAtThePaceItAssumes) {
+  const Path plan{{10.5, 10.0},     {9.703, 9.219},   {9.453, 9.453},   {14.422, 14.078}, {12.25, 11.984},
+                  {13.859, 11.984}, {15.906, 14.766}, {12.766, 16.547}, {7.563, 17.797},  {8.564, 13.517},
+                  {10.688, 10.688}, {11.922, 6.578},  {12.969, 5.719},  {7.984, 4.844},   {12.144, 8.789}};
+  const double assumed_mps = 0.35;
+  const Drive run = PerfectBase({10.5, 10.0, kPi / 2}).follow(plan);
+  EXPECT_TRUE(run.reached);
+  EXPECT_TRUE(run.kept_to_path);
+  EXPECT_LT(run.end_error_m, PathFollower::kEndTolerance_m);
+  EXPECT_LT(run.duration_s, 1.1 * length_of(plan) / assumed_mps);
+}
+
 TEST(PathFollower, SlowsDownForACurveOfManySmallCorners) {
   Path path;
   for (int i = 0; i <= 63; ++i) {
