@@ -42,12 +42,13 @@ void RouteJudge::demand(double mass) noexcept {
   max_unseen_ = mass_from(may_stay_unseen_ - demanded_);
 }
 
+// A state of the very moment of a change may lie behind it: a leg between two starts at one place takes no time.
 int RouteJudge::start(const Route& route, Seconds changed_s) noexcept {
   route_ = &route;
   changed_s_ = changed_s;
   done_ = false;
   int from = kept_count_ - 1;
-  while (from >= 0 && kept_[index(from)].time_s > changed_s) {
+  while (from >= 0 && kept_[index(from)].time_s >= changed_s) {
     --from;
   }
   if (from >= 0) {
@@ -67,7 +68,7 @@ int RouteJudge::start(const Route& route, Seconds changed_s) noexcept {
 }
 
 void RouteJudge::accept() noexcept {
-  while (kept_count_ > 0 && kept_[index(kept_count_ - 1)].time_s > changed_s_) {
+  while (kept_count_ > 0 && kept_[index(kept_count_ - 1)].time_s >= changed_s_) {
     --kept_count_;
   }
   keep_every_s_ = judgement_.end_s / kKept;
@@ -82,7 +83,7 @@ int RouteJudge::advance(int rows) noexcept {
       break;
     }
     work += advance_agent(agent);
-    if (!done_ && state_.time_s >= next_kept_s_ && state_.time_s <= changed_s_ && kept_count_ < kKept) {
+    if (!done_ && state_.time_s >= next_kept_s_ && state_.time_s < changed_s_ && kept_count_ < kKept) {
       keep_state();
       work += 15 + work::bytes(seen_.bytes());
     }

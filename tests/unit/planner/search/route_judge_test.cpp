@@ -280,6 +280,36 @@ TEST(RouteJudge, IsWithinOnePercentOfTheExactScoreWithSubPriors) {
   expect_near_exact(m1, 0.01);
 }
 
+std::int32_t made(const Place& from, const Place& to) {
+  int work = 0;
+  const std::int32_t id = Bench::get().pool().make(0, from, to, work);
+  EXPECT_GE(id, 0);
+  return id;
+}
+
+Place spot(double x_m, double y_m) { return {spot_at({x_m, y_m}), -1}; }
+
+// From one agent's start to the other's at the same place: a leg that takes no time.
+TEST(RouteJudge, DoesNotGoOnFromBehindAChangedLegThatTookNoTime) {
+  test::M1 m1(1);
+  m1.problem().agents[1].body.start = m1.problem().agents[0].body.start;
+  ASSERT_FALSE(test::shared_planner().prepare(m1.problem()));
+  Bench& bench = Bench::get();
+  ASSERT_TRUE(bench.open(m1.problem()));
+  const Place here = bench.pool().place_of(0);
+  const Place there = bench.pool().place_of(1);
+  ASSERT_EQ(here.spot, there.spot);
+  Route route;
+  (void)route.legs[0].push_back({made(here, there), false});
+  (void)route.legs[0].push_back({made(there, spot(20, 2)), false});
+  (void)bench.judge_on(route, Seconds{});
+  bench.accept(route);
+  Route changed;
+  (void)changed.legs[0].push_back({made(here, spot(2, 20)), false});
+  const Judgement anew = bench.judge_anew(changed);
+  expect_same(bench.judge_on(changed, Seconds{}), anew, 2);
+}
+
 TEST(RouteJudge, HoldsAPlanThatSeesTooLittleForWorseThanOneThatSeesMoreOfIt) {
   test::M1 m1(1);
   ASSERT_FALSE(test::shared_planner().prepare(m1.problem()));
