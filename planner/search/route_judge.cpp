@@ -39,7 +39,11 @@ void RouteJudge::open(const Cells& cells, const Belief& belief, const std::array
 
 void RouteJudge::demand(double mass) noexcept {
   demanded_ = std::clamp(mass, 0.0, 0.75 * may_stay_unseen_);
-  max_unseen_ = mass_from(may_stay_unseen_ - demanded_);
+  const Mass max_unseen = mass_from(may_stay_unseen_ - demanded_);
+  if (max_unseen != max_unseen_) {
+    max_unseen_ = max_unseen;
+    kept_count_ = 0;  // some may lie behind where a plan is complete now
+  }
 }
 
 // A state of the very moment of a change may lie behind it: a leg between two starts at one place takes no time.

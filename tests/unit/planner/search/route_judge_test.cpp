@@ -46,6 +46,7 @@ class Bench {
     return judge(fresh_, route, Seconds{});
   }
   Judgement judge_on(const Route& route, Seconds changed_s) { return judge(restarting_, route, changed_s); }
+  void demand(double mass) { restarting_.demand(mass); }
   void accept(const Route& route) {
     restarting_.accept();
     current_.assign(route, agents_);
@@ -308,6 +309,25 @@ TEST(RouteJudge, DoesNotGoOnFromBehindAChangedLegThatTookNoTime) {
   (void)changed.legs[0].push_back({made(here, spot(2, 20)), false});
   const Judgement anew = bench.judge_anew(changed);
   expect_same(bench.judge_on(changed, Seconds{}), anew, 2);
+}
+
+TEST(RouteJudge, JudgesAnewWhenItDemandsLess) {
+  test::M1 m1(1);
+  m1.problem().colony.ant.max_unseen_mass = 0.4;
+  ASSERT_FALSE(test::shared_planner().prepare(m1.problem()));
+  Bench& bench = Bench::get();
+  ASSERT_TRUE(bench.open(m1.problem()));
+  std::mt19937_64 random(54);
+  const Route route = lane_route(m1.problem(), random);
+  bench.demand(0.3);
+  Judgement strict = bench.judge_on(route, Seconds{});
+  ASSERT_TRUE(strict.complete);
+  bench.accept(route);
+  strict = bench.judge_on(route, strict.end_s);  // keeps states to its end
+  bench.demand(0.0);
+  const Judgement anew = bench.judge_anew(route);
+  EXPECT_LT(to_double(anew.end_s), to_double(strict.end_s));
+  expect_same(bench.judge_on(route, strict.end_s), anew, 2);
 }
 
 TEST(RouteJudge, HoldsAPlanThatSeesTooLittleForWorseThanOneThatSeesMoreOfIt) {
