@@ -66,6 +66,9 @@ int RouteJudge::start(const Route& route, Seconds changed_s) noexcept {
       state_.unseen -= shown.mass;
       state_.unfound -= shown.sub_mass;
     }
+    if (state_.unseen <= max_unseen_) {
+      end_complete({}, {}, {});
+    }
   }
   next_kept_s_ = kept_count_ > 0 ? kept_[index(kept_count_ - 1)].time_s + keep_every_s_ : keep_every_s_;
   return work::kJudgement + work::bytes(seen_.bytes());

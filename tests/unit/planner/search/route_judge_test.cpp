@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "planner/search/path_score.hpp"
+#include "tests/support/drawn_map.hpp"
 #include "tests/support/m1.hpp"
 #include "tests/support/random_search.hpp"
 #include "tests/support/shared_planner.hpp"
@@ -328,6 +329,27 @@ TEST(RouteJudge, JudgesAnewWhenItDemandsLess) {
   const Judgement anew = bench.judge_anew(route);
   EXPECT_LT(to_double(anew.end_s), to_double(strict.end_s));
   expect_same(bench.judge_on(route, strict.end_s), anew, 2);
+}
+
+TEST(RouteJudge, TakesAPlanForCompleteAtOnceWhereTheStartsShowEnough) {
+  const test::DrawnMap map(6, 4, 0.25);
+  SearchProblem problem;
+  problem.map = map.view();
+  problem.agents.resize(1);
+  problem.agents[0].body.start = {2, 2};
+  problem.colony.ant.max_unseen_mass = 0.5;
+  ASSERT_FALSE(test::shared_planner().prepare(problem));
+  Bench& bench = Bench::get();
+  ASSERT_TRUE(bench.open(problem));
+  Route route;
+  for (int legs = 0; legs < 2; ++legs) {
+    const Judgement judgement = bench.judge_anew(route);
+    EXPECT_TRUE(judgement.complete);
+    EXPECT_EQ(to_double(judgement.end_s), 0.0);
+    EXPECT_EQ(to_double(judgement.cost), 0.0);
+    EXPECT_EQ(judgement.legs_used[0], 0);
+    (void)route.legs[0].push_back({made(bench.pool().place_of(0), spot(4, 2)), false});
+  }
 }
 
 TEST(RouteJudge, HoldsAPlanThatSeesTooLittleForWorseThanOneThatSeesMoreOfIt) {
