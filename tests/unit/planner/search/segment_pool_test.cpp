@@ -220,5 +220,34 @@ TEST(SegmentPool, MakesTheSameSightInManyPartsAsInOne) {
   });
 }
 
+// One agent, alone with one node, in the middle of a square of a single pixel.
+struct OnePixel {
+  OnePixel(double side_m, double cell_m, double sight_radius_m) {
+    problem.map = {pixels, 1, 1, side_m, default_class_table()};
+    problem.cell_m = cell_m;
+    problem.graph = {.spacing_m = 2 * side_m, .clearance_m = 0.0};
+    problem.agents.resize(1);
+    problem.agents[0].body.start = {side_m / 2, side_m / 2};
+    problem.agents[0].body.footprint_radius_m = 0.0;
+    problem.agents[0].sight_radius_m = sight_radius_m;
+  }
+  std::array<SemanticClass, 1> pixels = {SemanticClass::kPavement};
+  SearchProblem problem;
+};
+
+TEST(SegmentPool, IsOfNoUseWhereCellsAreSmallerThanTheLatticeOrNumbersTooLarge) {
+  struct Case {
+    double side_m, cell_m, sight_radius_m;
+    bool useful;
+  };
+  for (const Case& c : {Case{4, 0.25, 2, true}, Case{0.5, 0.02, 0.1, true}, Case{0.5, 0.01, 0.05, false},
+                        Case{0.01, 1e-5, 2e-5, false}, Case{4, 0.25, 5.6, false}, Case{2000, 5, 70, false},
+                        Case{4e8, 1e6, 5e6, false}, Case{1e5, 1e5, 60, true}, Case{1e6, 1e6, 60, false}}) {
+    OnePixel one(c.side_m, c.cell_m, c.sight_radius_m);
+    ASSERT_FALSE(test::shared_planner().prepare(one.problem)) << c.side_m;
+    EXPECT_EQ(pool().open(), c.useful) << "side " << c.side_m << ", cells " << c.cell_m;
+  }
+}
+
 }  // namespace
 }  // namespace ivo::planner
