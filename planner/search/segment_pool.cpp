@@ -99,12 +99,16 @@ bool SegmentPool::proved(int agent, const Place& from, const Place& to, int& wor
       return false;
     }
   }
-  const Point a = point_at(from);
-  const Point b = point_at(to);
+  // In the same order whichever way it is gone: who can go there can come back.
+  const bool turned = to.spot.x < from.spot.x || (to.spot.x == from.spot.x && to.spot.y < from.spot.y);
+  const Place& first = turned ? to : from;
+  const Place& last = turned ? from : to;
+  const Point a = point_at(first);
+  const Point b = point_at(last);
   if (!body.restricted.empty() && touches(body.restricted, a, b)) {
     return false;
   }
-  if (clear_[static_cast<std::size_t>(body.kind)].surely_free(from.spot, to.spot, radius + 1)) {
+  if (clear_[static_cast<std::size_t>(body.kind)].surely_free(first.spot, last.spot, radius + 1)) {
     return true;
   }
 #if IVO_PLANNER_FIXED

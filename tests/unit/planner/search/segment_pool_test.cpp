@@ -220,6 +220,30 @@ TEST(SegmentPool, MakesTheSameSightInManyPartsAsInOne) {
   });
 }
 
+// A route is kept as waypoints, and a leg of it that was gone back is made anew the other way round.
+TEST(SegmentPool, AcceptsAWayInBothDirectionsOrInNeither) {
+  int accepted = 0;
+  on_random_searches(25, 40, [&](const SearchProblem& problem, std::mt19937_64& random) {
+    for (int i = 0; i < 2'000; ++i) {
+      const auto agent = static_cast<int>(random() % problem.agents.size());
+      const Place from = node_or_anywhere(problem.map, random);
+      const Place to = node_or_anywhere(problem.map, random);
+      int work = 0;
+      const std::int32_t there = pool().begin(agent, from, to, work);
+      const std::int32_t back = pool().begin(agent, to, from, work);
+      EXPECT_EQ(there >= 0, back >= 0) << "agent " << agent << " from " << from.spot.x << ", " << from.spot.y << " to "
+                                       << to.spot.x << ", " << to.spot.y << " ticks";
+      for (const std::int32_t id : {there, back}) {
+        if (id >= 0) {
+          ++accepted;
+          pool().release(id);
+        }
+      }
+    }
+  });
+  EXPECT_GT(accepted, 1'000);
+}
+
 // One agent, alone with one node, in the middle of a square of a single pixel.
 struct OnePixel {
   OnePixel(double side_m, double cell_m, double sight_radius_m) {
