@@ -26,6 +26,7 @@ struct ImproverParameters {
 
 /// Waypoints as the improver keeps them: exact places of nodes, lattice places elsewhere.
 using Waypoints = StaticVector<Place, limits::kWaypoints>;
+static_assert(Legs::capacity() + 1 == Waypoints::capacity() && Lanes::capacity() + 1 == Waypoints::capacity());
 
 class Improver {
  public:
