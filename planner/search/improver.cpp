@@ -641,7 +641,7 @@ void Improver::after_proposal() noexcept {
   ++proposals_;
   ++round_done_;
   const bool round_over = round_done_ >= round_length_;
-  const int wait = std::max(kScoreEvery, proposals_ / 12);
+  const std::int64_t wait = std::max<std::int64_t>(kScoreEvery, proposals_ / 12);
   if (remembered_ && (round_over || proposals_ - scored_at_ >= wait)) {
     start_score();
     return;
