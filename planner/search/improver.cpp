@@ -66,15 +66,19 @@ bool Improver::open(const ImproverParameters& parameters) noexcept {
   }
   double widest_m = 0.0;
   double largest_m = 0.0;
+  double most_swept = 0.0;  // m^2 in a second
   std::array<SecondsAMetre, limits::kAgents> paces{};
   for (int m = 0; m < agents_; ++m) {
     paces[index(m)] = SecondsAMetre(1.0 / world_.speeds_mps[index(m)]);
     widest_m = std::max(widest_m, bodies[index(m)].sight_radius_m);
     largest_m = std::max(largest_m, bodies[index(m)].footprint_radius_m);
+    most_swept = std::max(most_swept, bodies[index(m)].sight_radius_m * world_.speeds_mps[index(m)]);
   }
+  // Farther than the map is long is as good as that.
+  const double border_m = std::min(std::max(largest_m, world_.clearance_m), map.width_m() + map.height_m());
   right_ticks_ = static_cast<std::int32_t>(map.width_m() * kTicksAMetre);
   top_ticks_ = static_cast<std::int32_t>(map.height_m() * kTicksAMetre);
-  border_ticks_ = static_cast<std::int32_t>(std::max(largest_m, world_.clearance_m) * kTicksAMetre) + 2;
+  border_ticks_ = static_cast<std::int32_t>(border_m * kTicksAMetre) + 2;
   sight_ticks_ = std::max(8, static_cast<int>(widest_m * kTicksAMetre));
   lane_team_.width = right_ticks_;
   lane_team_.height = top_ticks_;
@@ -84,7 +88,8 @@ bool Improver::open(const ImproverParameters& parameters) noexcept {
     const double sight_m = bodies[index(m)].sight_radius_m;
     lane_team_.starts[index(m)] = pool_.place_of(m).spot;
     lane_team_.sight[index(m)] = std::max(1, static_cast<std::int32_t>(sight_m * kTicksAMetre));
-    lane_team_.sweep[index(m)] = std::max(1, static_cast<std::int32_t>(sight_m * world_.speeds_mps[index(m)] * 4096.0));
+    lane_team_.sweep[index(m)] =
+        std::max(1, static_cast<std::int32_t>(sight_m * world_.speeds_mps[index(m)] / most_swept * 0x1p20));
   }
   judge_.open(world_.cells, world_.belief, paces, parameters.max_unseen_mass);
   for (int m = 0; m < agents_; ++m) {
@@ -636,7 +641,7 @@ void Improver::after_proposal() noexcept {
   ++proposals_;
   ++round_done_;
   const bool round_over = round_done_ >= round_length_;
-  const int wait = std::max(kScoreEvery, proposals_ / 12);
+  const std::int64_t wait = std::max<std::int64_t>(kScoreEvery, proposals_ / 12);
   if (remembered_ && (round_over || proposals_ - scored_at_ >= wait)) {
     start_score();
     return;

@@ -26,6 +26,7 @@ struct ImproverParameters {
 
 /// Waypoints as the improver keeps them: exact places of nodes, lattice places elsewhere.
 using Waypoints = StaticVector<Place, limits::kWaypoints>;
+static_assert(Legs::capacity() + 1 == Waypoints::capacity() && Lanes::capacity() + 1 == Waypoints::capacity());
 
 class Improver {
  public:
@@ -43,7 +44,9 @@ class Improver {
 
   /// A part of the work, about `rows` rows at most. Returns the work done.
   int advance(int rows) noexcept;
-  [[nodiscard]] int generation() const noexcept { return proposals_ / parameters_.proposals_a_generation; }
+  [[nodiscard]] int generation() const noexcept {
+    return static_cast<int>(proposals_ / parameters_.proposals_a_generation);
+  }
 
   [[nodiscard]] bool has_best() const noexcept { return has_best_; }
   /// Exact score of the best plan so far, and its waypoints.
@@ -122,7 +125,7 @@ class Improver {
   Seconds changed_s_{};
   int work_ = 0;
 
-  int proposals_ = 0;
+  std::int64_t proposals_ = 0;
   int round_ = 0;
   int round_length_ = 0;
   int round_done_ = 0;
@@ -146,7 +149,7 @@ class Improver {
   bool remembered_ = false;  // and not yet scored
   std::array<Waypoints, limits::kAgents> memory_{};
   std::array<StaticVector<Point, limits::kWaypoints>, limits::kAgents> points_{};  // of the memory, while it is scored
-  int scored_at_ = 0;                                                              // proposals by then
+  std::int64_t scored_at_ = 0;                                                     // proposals by then
 
   bool has_best_ = false;
   PlanScore best_score_;

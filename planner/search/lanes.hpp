@@ -19,7 +19,7 @@ struct LaneTeam {
   std::array<std::int32_t, limits::kAgents> sweep{};  ///< ticks^2 swept in some time: radius times speed, in any unit
 };
 
-using Lanes = StaticVector<Spot, limits::kWaypoints>;
+using Lanes = StaticVector<Spot, limits::kWaypoints - 1>;
 
 inline constexpr int kLanePlans = 6;
 

@@ -16,7 +16,8 @@ struct Leg {
   [[nodiscard]] Leg turned() const noexcept { return {segment, !back}; }
 };
 
-using Legs = StaticVector<Leg, limits::kWaypoints>;
+/// One fewer than the waypoints that they join.
+using Legs = StaticVector<Leg, limits::kWaypoints - 1>;
 
 struct Route {
   std::array<Legs, limits::kAgents> legs;

@@ -39,15 +39,20 @@ void RouteJudge::open(const Cells& cells, const Belief& belief, const std::array
 
 void RouteJudge::demand(double mass) noexcept {
   demanded_ = std::clamp(mass, 0.0, 0.75 * may_stay_unseen_);
-  max_unseen_ = mass_from(may_stay_unseen_ - demanded_);
+  const Mass max_unseen = mass_from(may_stay_unseen_ - demanded_);
+  if (max_unseen != max_unseen_) {
+    max_unseen_ = max_unseen;
+    kept_count_ = 0;  // some may lie behind where a plan is complete now
+  }
 }
 
+// A state of the very moment of a change may lie behind it: a leg between two starts at one place takes no time.
 int RouteJudge::start(const Route& route, Seconds changed_s) noexcept {
   route_ = &route;
   changed_s_ = changed_s;
   done_ = false;
   int from = kept_count_ - 1;
-  while (from >= 0 && kept_[index(from)].time_s > changed_s) {
+  while (from >= 0 && kept_[index(from)].time_s >= changed_s) {
     --from;
   }
   if (from >= 0) {
@@ -61,13 +66,16 @@ int RouteJudge::start(const Route& route, Seconds changed_s) noexcept {
       state_.unseen -= shown.mass;
       state_.unfound -= shown.sub_mass;
     }
+    if (state_.unseen <= max_unseen_) {
+      end_complete({}, {}, {});
+    }
   }
   next_kept_s_ = kept_count_ > 0 ? kept_[index(kept_count_ - 1)].time_s + keep_every_s_ : keep_every_s_;
   return work::kJudgement + work::bytes(seen_.bytes());
 }
 
 void RouteJudge::accept() noexcept {
-  while (kept_count_ > 0 && kept_[index(kept_count_ - 1)].time_s > changed_s_) {
+  while (kept_count_ > 0 && kept_[index(kept_count_ - 1)].time_s >= changed_s_) {
     --kept_count_;
   }
   keep_every_s_ = judgement_.end_s / kKept;
@@ -82,7 +90,7 @@ int RouteJudge::advance(int rows) noexcept {
       break;
     }
     work += advance_agent(agent);
-    if (!done_ && state_.time_s >= next_kept_s_ && state_.time_s <= changed_s_ && kept_count_ < kKept) {
+    if (!done_ && state_.time_s >= next_kept_s_ && state_.time_s < changed_s_ && kept_count_ < kKept) {
       keep_state();
       work += 15 + work::bytes(seen_.bytes());
     }

@@ -11,6 +11,8 @@ namespace {
 
 constexpr int kQ = 256;  // parts of a tick
 constexpr int kAll = 1 << 30;
+constexpr double kLongest_m = 5e5;  // of a map; then products of ticks and their fractions stay whole numbers
+constexpr int kMostRows = 1 << 20;  // of cells, and columns
 
 }  // namespace
 
@@ -18,10 +20,24 @@ bool SegmentPool::open() noexcept {
   const Cells& cells = world_.cells;
   const Bodies& bodies = world_.bodies;
   const SegmentedMap& map = world_.map;
+  double widest_m = 0.0;
+  for (const Body& body : bodies) {
+    widest_m = std::max(widest_m, body.sight_radius_m);
+  }
+  // A part spans at most kRows rows, and with its first byte's other columns at most a word.
+  const double span_m = (Part::kRows - 2) * cells.cell_m() - 2.0 * widest_m;
+  const double part_m = std::min(span_m, widest_m);
+  if (cells.cell_m() * kTicksAMetre < 1.0 || widest_m * kTicksAMetre >= static_cast<double>(Disc::kMost) ||
+      span_m < 2.0 * cells.cell_m() || part_m * kTicksAMetre < 1.0) {
+    return false;
+  }
+  if (std::max(map.width_m(), map.height_m()) > kLongest_m || std::max(cells.columns(), cells.rows()) > kMostRows) {
+    return false;
+  }
+  part_ticks_ = static_cast<std::int32_t>(part_m * kTicksAMetre);
   cell_q_ = static_cast<std::int64_t>(cells.cell_m() * kTicksAMetre * kQ + 0.5);
   inverse_q_ = (std::int64_t{1} << 40) / cell_q_;
   int discs = 0;
-  double widest_m = 0.0;
   for (std::size_t m = 0; m < bodies.size(); ++m) {
     // What lies on the rim is seen from the sight points alone, and those are up to half a cell apart: a sweep that
     // took it for seen all along would be a way to see what nobody sees.
@@ -33,26 +49,16 @@ bool SegmentPool::open() noexcept {
       ++disc;
     }
     disc_of_agent_[m] = disc;
-    widest_m = std::max(widest_m, bodies[m].sight_radius_m);
     if (disc < discs) {
       continue;
     }
     ++discs;
     Disc& made = discs_[index(disc)];
     made.radius = radius;
-    if (radius >= static_cast<std::int32_t>(made.half.size())) {
-      return false;
-    }
     for (std::int64_t d = 0; d <= radius; ++d) {
       made.half[static_cast<std::size_t>(d)] = static_cast<std::int16_t>(
           whole_square_root(static_cast<std::uint64_t>(std::int64_t{radius} * radius - d * d)));
     }
-  }
-  // A part spans at most kRows rows, and with its first byte's other columns at most a word.
-  const double span_m = (Part::kRows - 2) * cells.cell_m() - 2.0 * widest_m;
-  part_ticks_ = static_cast<std::int32_t>(std::min(span_m, widest_m) * kTicksAMetre);
-  if (span_m < 2.0 * cells.cell_m() || part_ticks_ < 1) {
-    return false;
   }
   for (std::size_t kind = 0; kind < kAgentKinds; ++kind) {
     clear_[kind].build(map, cells,
@@ -83,7 +89,7 @@ bool SegmentPool::proved(int agent, const Place& from, const Place& to, int& wor
     }
   }
   const Body& body = world_.bodies[index(agent)];
-  const double radius_m = std::max(body.footprint_radius_m, world_.clearance_m);
+  const double radius_m = std::min(std::max(body.footprint_radius_m, world_.clearance_m), kLongest_m);
   const auto radius = static_cast<std::int32_t>(radius_m * kTicksAMetre + 1.0);
   const auto width = static_cast<std::int32_t>(world_.map.width_m() * kTicksAMetre);
   const auto height = static_cast<std::int32_t>(world_.map.height_m() * kTicksAMetre);
@@ -93,12 +99,16 @@ bool SegmentPool::proved(int agent, const Place& from, const Place& to, int& wor
       return false;
     }
   }
-  const Point a = point_at(from);
-  const Point b = point_at(to);
+  // In the same order whichever way it is gone: who can go there can come back.
+  const bool turned = to.spot.x < from.spot.x || (to.spot.x == from.spot.x && to.spot.y < from.spot.y);
+  const Place& first = turned ? to : from;
+  const Place& last = turned ? from : to;
+  const Point a = point_at(first);
+  const Point b = point_at(last);
   if (!body.restricted.empty() && touches(body.restricted, a, b)) {
     return false;
   }
-  if (clear_[static_cast<std::size_t>(body.kind)].surely_free(from.spot, to.spot, radius + 1)) {
+  if (clear_[static_cast<std::size_t>(body.kind)].surely_free(first.spot, last.spot, radius + 1)) {
     return true;
   }
 #if IVO_PLANNER_FIXED

@@ -49,7 +49,8 @@ class SegmentPool {
 
   explicit SegmentPool(const World& world) noexcept : world_(world) {}
 
-  /// Another mission. False when a sight disc is too many cells wide for a part. Cost: the pixels and the cells.
+  /// Another mission. False when a sight disc is too many cells wide for a part, cells are smaller than the lattice's,
+  /// or the map is longer than 500 km. Cost: the pixels and the cells.
   [[nodiscard]] bool open() noexcept;
 
   /// Begins a segment for `agent`; -1 when it is not proved free or there is no room. An edge of the graph is proved;
@@ -74,8 +75,9 @@ class SegmentPool {
 
  private:
   struct Disc {  // of one sight radius, in ticks
+    static constexpr std::size_t kMost = 4096;
     std::int32_t radius = 0;
-    std::array<std::int16_t, 4096> half{};  // half-width by distance from the middle row
+    std::array<std::int16_t, kMost> half{};  // half-width by distance from the middle row
   };
 
   struct Sweep {  // the part under way

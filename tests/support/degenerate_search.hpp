@@ -19,7 +19,7 @@ class DegenerateSearch {
     draw_map();
     problem_.cell_m = one_of({0.25, 0.25, 0.5, 0.1, 1.0, 7.0, 1000.0, 0.001});
     problem_.graph.spacing_m = one_of({0.5, 1.0, 2.0, 2.0, 3.5, 50.0, 0.01});
-    problem_.graph.clearance_m = one_of({0.0, 0.1, 0.4, 0.4, 30.0});
+    problem_.graph.clearance_m = one_of({0.0, 0.1, 0.4, 0.4, 30.0, 1e300});
     draw_prior();
     const int agents = 1 + below(limits::kAgents);
     const Point together = somewhere();
@@ -101,8 +101,8 @@ class DegenerateSearch {
     agent.body.start = chance(0.4) ? together : somewhere();
     agent.body.kind = chance(0.5) ? AgentKind::kPerson : AgentKind::kRobot;
     agent.body.footprint_radius_m = one_of({0.0, 0.0, 0.01, 0.01, 0.1, 0.3, chance(0.1) ? 40.0 : 0.0});
-    agent.speed_mps = one_of({0.5, 1.0, 1e-3, 100.0});
-    agent.sight_radius_m = one_of({0.0, 0.1, 1.0, 2.5, 2.5, 500.0});
+    agent.speed_mps = one_of({0.5, 1.0, 1e-3, 100.0, 1e9});
+    agent.sight_radius_m = one_of({0.0, 0.1, 1.0, 2.5, 2.5, 500.0, 1e7});
     for (int i = 0; i < limits::kAreas && chance(0.15); ++i) {
       (void)agent.body.restricted.push_back(area());
     }

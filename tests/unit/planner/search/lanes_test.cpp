@@ -144,5 +144,18 @@ TEST(Lanes, AreNoneWhereTheyWouldNeedMoreWaypointsThanThereIsRoom) {
   EXPECT_FALSE(lanes.empty());
 }
 
+TEST(Lanes, LeaveRoomForTheStart) {
+  LaneTeam team{.width = 0, .height = 2'560, .border = 26, .agents = 1, .starts = {}, .sight = {}, .sweep = {}};
+  team.sight[0] = 8;
+  team.sweep[0] = 8;
+  Lanes lanes;
+  for (const int count : {limits::kWaypoints / 2, limits::kWaypoints / 2 - 1}) {
+    team.width = count * 2 * team.sight[0];
+    fill_lanes(team, 0, 0, lanes);
+    EXPECT_LE(lanes.size() + 1, limits::kWaypoints);
+    EXPECT_EQ(lanes.empty(), 2 * count + 1 > limits::kWaypoints);
+  }
+}
+
 }  // namespace
 }  // namespace ivo::planner

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "planner/search/path_score.hpp"
+#include "tests/support/drawn_map.hpp"
 #include "tests/support/m1.hpp"
 #include "tests/support/random_search.hpp"
 #include "tests/support/shared_planner.hpp"
@@ -46,6 +47,7 @@ class Bench {
     return judge(fresh_, route, Seconds{});
   }
   Judgement judge_on(const Route& route, Seconds changed_s) { return judge(restarting_, route, changed_s); }
+  void demand(double mass) { restarting_.demand(mass); }
   void accept(const Route& route) {
     restarting_.accept();
     current_.assign(route, agents_);
@@ -278,6 +280,76 @@ TEST(RouteJudge, IsWithinOnePercentOfTheExactScoreWithSubPriors) {
   test::M1 m1(1);
   ASSERT_TRUE(m1.problem().agents[1].preferred.push_back(test::rectangle(0, 20, 40, 40)));
   expect_near_exact(m1, 0.01);
+}
+
+std::int32_t made(const Place& from, const Place& to) {
+  int work = 0;
+  const std::int32_t id = Bench::get().pool().make(0, from, to, work);
+  EXPECT_GE(id, 0);
+  return id;
+}
+
+Place spot(double x_m, double y_m) { return {spot_at({x_m, y_m}), -1}; }
+
+// From one agent's start to the other's at the same place: a leg that takes no time.
+TEST(RouteJudge, DoesNotGoOnFromBehindAChangedLegThatTookNoTime) {
+  test::M1 m1(1);
+  m1.problem().agents[1].body.start = m1.problem().agents[0].body.start;
+  ASSERT_FALSE(test::shared_planner().prepare(m1.problem()));
+  Bench& bench = Bench::get();
+  ASSERT_TRUE(bench.open(m1.problem()));
+  const Place here = bench.pool().place_of(0);
+  const Place there = bench.pool().place_of(1);
+  ASSERT_EQ(here.spot, there.spot);
+  Route route;
+  (void)route.legs[0].push_back({made(here, there), false});
+  (void)route.legs[0].push_back({made(there, spot(20, 2)), false});
+  (void)bench.judge_on(route, Seconds{});
+  bench.accept(route);
+  Route changed;
+  (void)changed.legs[0].push_back({made(here, spot(2, 20)), false});
+  const Judgement anew = bench.judge_anew(changed);
+  expect_same(bench.judge_on(changed, Seconds{}), anew, 2);
+}
+
+TEST(RouteJudge, JudgesAnewWhenItDemandsLess) {
+  test::M1 m1(1);
+  m1.problem().colony.ant.max_unseen_mass = 0.4;
+  ASSERT_FALSE(test::shared_planner().prepare(m1.problem()));
+  Bench& bench = Bench::get();
+  ASSERT_TRUE(bench.open(m1.problem()));
+  std::mt19937_64 random(54);
+  const Route route = lane_route(m1.problem(), random);
+  bench.demand(0.3);
+  Judgement strict = bench.judge_on(route, Seconds{});
+  ASSERT_TRUE(strict.complete);
+  bench.accept(route);
+  strict = bench.judge_on(route, strict.end_s);  // keeps states to its end
+  bench.demand(0.0);
+  const Judgement anew = bench.judge_anew(route);
+  EXPECT_LT(to_double(anew.end_s), to_double(strict.end_s));
+  expect_same(bench.judge_on(route, strict.end_s), anew, 2);
+}
+
+TEST(RouteJudge, TakesAPlanForCompleteAtOnceWhereTheStartsShowEnough) {
+  const test::DrawnMap map(6, 4, 0.25);
+  SearchProblem problem;
+  problem.map = map.view();
+  problem.agents.resize(1);
+  problem.agents[0].body.start = {2, 2};
+  problem.colony.ant.max_unseen_mass = 0.5;
+  ASSERT_FALSE(test::shared_planner().prepare(problem));
+  Bench& bench = Bench::get();
+  ASSERT_TRUE(bench.open(problem));
+  Route route;
+  for (int legs = 0; legs < 2; ++legs) {
+    const Judgement judgement = bench.judge_anew(route);
+    EXPECT_TRUE(judgement.complete);
+    EXPECT_EQ(to_double(judgement.end_s), 0.0);
+    EXPECT_EQ(to_double(judgement.cost), 0.0);
+    EXPECT_EQ(judgement.legs_used[0], 0);
+    (void)route.legs[0].push_back({made(bench.pool().place_of(0), spot(4, 2)), false});
+  }
 }
 
 TEST(RouteJudge, HoldsAPlanThatSeesTooLittleForWorseThanOneThatSeesMoreOfIt) {

@@ -220,5 +220,58 @@ TEST(SegmentPool, MakesTheSameSightInManyPartsAsInOne) {
   });
 }
 
+// A route is kept as waypoints, and a leg of it that was gone back is made anew the other way round.
+TEST(SegmentPool, AcceptsAWayInBothDirectionsOrInNeither) {
+  int accepted = 0;
+  on_random_searches(25, 40, [&](const SearchProblem& problem, std::mt19937_64& random) {
+    for (int i = 0; i < 2'000; ++i) {
+      const auto agent = static_cast<int>(random() % problem.agents.size());
+      const Place from = node_or_anywhere(problem.map, random);
+      const Place to = node_or_anywhere(problem.map, random);
+      int work = 0;
+      const std::int32_t there = pool().begin(agent, from, to, work);
+      const std::int32_t back = pool().begin(agent, to, from, work);
+      EXPECT_EQ(there >= 0, back >= 0) << "agent " << agent << " from " << from.spot.x << ", " << from.spot.y << " to "
+                                       << to.spot.x << ", " << to.spot.y << " ticks";
+      for (const std::int32_t id : {there, back}) {
+        if (id >= 0) {
+          ++accepted;
+          pool().release(id);
+        }
+      }
+    }
+  });
+  EXPECT_GT(accepted, 1'000);
+}
+
+// One agent, alone with one node, in the middle of a square of a single pixel.
+struct OnePixel {
+  OnePixel(double side_m, double cell_m, double sight_radius_m) {
+    problem.map = {pixels, 1, 1, side_m, default_class_table()};
+    problem.cell_m = cell_m;
+    problem.graph = {.spacing_m = 2 * side_m, .clearance_m = 0.0};
+    problem.agents.resize(1);
+    problem.agents[0].body.start = {side_m / 2, side_m / 2};
+    problem.agents[0].body.footprint_radius_m = 0.0;
+    problem.agents[0].sight_radius_m = sight_radius_m;
+  }
+  std::array<SemanticClass, 1> pixels = {SemanticClass::kPavement};
+  SearchProblem problem;
+};
+
+TEST(SegmentPool, IsOfNoUseWhereCellsAreSmallerThanTheLatticeOrNumbersTooLarge) {
+  struct Case {
+    double side_m, cell_m, sight_radius_m;
+    bool useful;
+  };
+  for (const Case& c : {Case{4, 0.25, 2, true}, Case{0.5, 0.02, 0.1, true}, Case{0.5, 0.01, 0.05, false},
+                        Case{0.01, 1e-5, 2e-5, false}, Case{4, 0.25, 5.6, false}, Case{2000, 5, 70, false},
+                        Case{4e8, 1e6, 5e6, false}, Case{1e5, 1e5, 60, true}, Case{1e6, 1e6, 60, false}}) {
+    OnePixel one(c.side_m, c.cell_m, c.sight_radius_m);
+    ASSERT_FALSE(test::shared_planner().prepare(one.problem)) << c.side_m;
+    EXPECT_EQ(pool().open(), c.useful) << "side " << c.side_m << ", cells " << c.cell_m;
+  }
+}
+
 }  // namespace
 }  // namespace ivo::planner
