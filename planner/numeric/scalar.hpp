@@ -7,7 +7,7 @@
 // | Seconds    | times, durations              | Q47.16       | to 2^47 s   | 15 us      |
 // | Pace       | seconds a sight point         | Q31.32       | to 2^31     | 2.3e-10    |
 // | Mass       | probability, and mass x steps | Q32.31       | to 2^32     | 4.7e-10    |
-// | MassTime   | mass x seconds                | Q16.47       | to 65,536 s | 7e-15      |
+// | MassTime   | mass x seconds; mass_time()   | Q16.47       | to 65,536 s | 7e-15      |
 // | Trail      | tau rho; roulette.hpp         | UQ2.30       | to 4        | 9.3e-10    |
 // | Visibility | eta^beta                      | UQ14.18      | to 2^14     | 3.8e-6     |
 // | Weight     | tau rho eta^beta              | UQ26.38      | to 2^26     | 3.6e-12    |
@@ -43,6 +43,17 @@ using MassTime = double;
   return round_to<Seconds>(pace * points);
 #else
   return pace * points;
+#endif
+}
+
+/// A mass seen at `time_s`, which in fixed point counts at most as this: so no sum of them over a prior, not even one
+/// with a fine of 2.5 times as much, leaves MassTime's range.
+inline constexpr int kLongest_s = 16'384;
+[[nodiscard]] constexpr MassTime mass_time(Mass mass, Seconds time_s) noexcept {
+#if IVO_PLANNER_FIXED
+  return mass * (time_s < Seconds(kLongest_s) ? time_s : Seconds(kLongest_s));
+#else
+  return mass * time_s;
 #endif
 }
 

@@ -9,6 +9,10 @@
 namespace ivo::planner {
 namespace {
 
+// Of the mean cell's mass. What lies farther out than 5 sigma is not worth a way there, and would be none in fixed
+// point, where it is smaller than a Mass can be.
+constexpr double kNegligibleShare = 1e-5;
+
 Refusal check_areas(const Cells& cells, const SightTable& sight, const PreferredAreas& preferred,
                     const Belief& belief) noexcept {
   for (std::size_t agent = 0; agent < preferred.size(); ++agent) {
@@ -43,11 +47,9 @@ Refusal normalise(const Cells& cells, const SightTable& sight, int agents, std::
     if (!(raw[index(c)] >= 0.0)) {
       return {.code = RefusalCode::kPriorNotFinite, .value = raw[index(c)]};
     }
-    const AgentSet by = sight.observable_by(c);
     whole += raw[index(c)];
-    if (by != 0 && raw[index(c)] > 0.0) {
+    if (sight.observable_by(c) != 0) {
       observable += raw[index(c)];
-      observers = static_cast<AgentSet>(observers | by);
     }
   }
   if (!std::isfinite(whole)) {
@@ -55,6 +57,15 @@ Refusal normalise(const Cells& cells, const SightTable& sight, int agents, std::
   }
   if (whole <= 0.0) {
     return {.code = RefusalCode::kPriorWithoutMass};
+  }
+  const double negligible = kNegligibleShare * observable / cells.count();
+  const auto counts = [&](Cell c) { return sight.observable_by(c) != 0 && raw[index(c)] > negligible; };
+  double kept = 0.0;
+  for (Cell c = 0; c < cells.count(); ++c) {
+    if (counts(c)) {
+      kept += raw[index(c)];
+      observers = static_cast<AgentSet>(observers | sight.observable_by(c));
+    }
   }
   for (int agent = 0; agent < agents; ++agent) {
     if (!in(observers, agent)) {
@@ -67,7 +78,7 @@ Refusal normalise(const Cells& cells, const SightTable& sight, int agents, std::
   belief.whole = Mass{};
   for (Cell c = 0; c < cells.count(); ++c) {
     Mass& mass = belief.mass[index(c)];
-    mass = sight.observable_by(c) != 0 ? mass_from(raw[index(c)] / observable) : Mass{};
+    mass = counts(c) ? mass_from(raw[index(c)] / kept) : Mass{};
     if (mass <= Mass{}) {
       belief.without_mass.set(cells.column(c), cells.row(c));
       continue;

@@ -16,7 +16,8 @@ namespace ivo::planner {
 using PreferredAreas = StaticVector<Areas, limits::kAgents>;
 
 /// From raw masses, one a cell and not normalised: belief.mass with sum 1 over the observable cells and 0 elsewhere,
-/// the list of cells with mass, and the unobservable share. Refuses a mass below 0, one that is not finite, and an
+/// the list of cells with mass, and the unobservable share. A cell with less than 1e-5 of the mean counts as empty: of
+/// the whole that is less than 1e-5. Refuses a mass below 0, one that is not finite, and an
 /// agent that can observe no mass. Cost: the cells.
 [[nodiscard]] Refusal normalise(const Cells& cells, const SightTable& sight, int agents, std::span<const double> raw,
                                 Belief& belief) noexcept;

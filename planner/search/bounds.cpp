@@ -21,6 +21,7 @@ double sight_m(const BoundAgent& agent) noexcept { return std::sqrt(square(agent
 void BoundTable::build(const SegmentedMap& map, const Cells& cells, const Belief& belief,
                        std::span<const BoundAgent> agents) noexcept {
   count_ = belief.mass_cell_count;
+  whole_ = to_double(belief.whole);
   for (const Cell c : belief.cells_with_mass()) {
     reach_s_[index(c)] = kNever;
   }
@@ -140,10 +141,10 @@ double BoundTable::integral_s(const Curve& f, double unseen_mass) const noexcept
   double sum_s = 0.0;
   for (int k = 1; k <= kInstants; ++k) {
     const double seen = f[index(k)];
-    if (seen >= 1.0 - unseen_mass - kRounding) {
+    if (seen >= whole_ - unseen_mass - kRounding) {
       break;
     }
-    sum_s += (instant_s(k) - instant_s(k - 1)) * (1.0 - seen);
+    sum_s += (instant_s(k) - instant_s(k - 1)) * (whole_ - seen);
   }
   return sum_s;
 }

@@ -74,6 +74,7 @@ class BoundTable {
   [[nodiscard]] double instant_s(int k) const noexcept;
   [[nodiscard]] double integral_s(const Curve& f, double unseen_mass) const noexcept;
 
+  double whole_ = 1.0;  // the sum of the masses: 1 but for their rounding
   double end_s_ = 0.0;
   Curve area_nominal_{};
   Curve area_strict_{};

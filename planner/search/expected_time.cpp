@@ -17,7 +17,7 @@ void ExpectedTime::add(const Belief& belief, const FirstSightings& sightings, in
     // Step 0 and step 1 are both credited from the first term of the sum on.
     const int steps = std::max(s.step, 1) - 1;
     sums.seen_mass_ += p;
-    sums.mass_seconds_ += p * s.time_s;
+    sums.mass_seconds_ += mass_time(p, s.time_s);
     sums.mass_steps_ += p * steps;
     if (belief.has_sub_priors) {
       const Mass q = belief.sub_mass[s.credited][index(c)];

@@ -568,7 +568,7 @@ int Improver::settle() noexcept {
   }
   const MassTime worse = judgement.cost - judged_.cost;
   int work = work::kJudgement;
-  if (worse <= MassTime{} || worse < temperature_ * patience_[index(rng_.below(256))] / 256) {
+  if (worse <= MassTime{} || worse < temperature_ / 256 * patience_[index(rng_.below(256))]) {
     accept();
     for (int m = 0; m < agents_; ++m) {
       work += work::legs(size_of(current_.legs[index(m)]));

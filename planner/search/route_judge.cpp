@@ -131,10 +131,10 @@ int RouteJudge::advance_agent(int agent) noexcept {
   }
   const Seconds middle_s = begin_s + length_s / 2;
   if (belief_->has_sub_priors) {
-    state_.cost += shown.sub_mass * std::min(middle_s, horizon_s_);
+    state_.cost += mass_time(shown.sub_mass, std::min(middle_s, horizon_s_));
     state_.unfound -= shown.sub_mass;
   } else {
-    state_.cost += shown.mass * middle_s;
+    state_.cost += mass_time(shown.mass, middle_s);
   }
   state_.unseen -= shown.mass;
   ++cursor.parts_done;
@@ -190,9 +190,10 @@ void RouteJudge::end_complete(Seconds begin_s, Seconds length_s, const Shown& sh
   judgement_.end_s = begin_s + until_s;
   if (belief_->has_sub_priors) {
     const Mass found = shown.mass > Mass{} ? share(shown.sub_mass, needed, shown.mass) : Mass{};
-    judgement_.cost = state_.cost + found * std::min(middle_s, horizon_s_) + (state_.unfound - found) * horizon_s_;
+    judgement_.cost =
+        state_.cost + mass_time(found, std::min(middle_s, horizon_s_)) + mass_time(state_.unfound - found, horizon_s_);
   } else {
-    judgement_.cost = state_.cost + needed * middle_s + max_unseen_ * judgement_.end_s;
+    judgement_.cost = state_.cost + mass_time(needed, middle_s) + mass_time(max_unseen_, judgement_.end_s);
   }
   judgement_.complete = true;
   for (int m = 0; m < agents_; ++m) {
@@ -206,9 +207,9 @@ void RouteJudge::end_incomplete() noexcept {
   const Seconds end_s = state_.time_s;
   const Mass missing = std::max(Mass{}, state_.unseen - max_unseen_);
   if (belief_->has_sub_priors) {
-    judgement_.cost = state_.cost + state_.unfound * horizon_s_ + missing * (horizon_s_ * 2);
+    judgement_.cost = state_.cost + mass_time(state_.unfound, horizon_s_) + mass_time(missing, horizon_s_) * 2;
   } else {
-    judgement_.cost = state_.cost + state_.unseen * (end_s + end_s / 2) + missing * (end_s * 2);
+    judgement_.cost = state_.cost + mass_time(state_.unseen, end_s) * 3 / 2 + mass_time(missing, end_s) * 2;
   }
   judgement_.end_s = end_s;
   judgement_.complete = false;

@@ -180,6 +180,16 @@ TEST(AfterPoints, IsLateByNothingAndEarlyByLessThanABitOfSeconds) {
   }
 }
 
+TEST(MassTimeOf, CountsATimeInFullOrAsTheLongestThatThereIsRangeFor) {
+  EXPECT_EQ(to_double(mass_time(Mass(1), Seconds(kLongest_s))), kLongest_s);
+  EXPECT_EQ(to_double(mass_time(Mass(0.25), Seconds(100.5))), 25.125);
+  for (const double late_s : {kLongest_s + 1.0, 65'536.0, 1e9}) {
+    EXPECT_EQ(to_double(mass_time(Mass(1), Seconds(late_s))), kFixedPoint ? kLongest_s : late_s);
+  }
+  const MassTime longest = mass_time(Mass(1), Seconds(1e9));
+  EXPECT_GT(longest + longest * 2 + longest / 2, longest);  // with the fine
+}
+
 TEST(StepOfFixed, IsTheFormulaWithAMarginOfTwoBits) {
   std::mt19937_64 random(68);
   for (int i = 0; i < 50'000; ++i) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "planner/world/collision.hpp"
+#include "tests/support/agreement.hpp"
 #include "tests/support/m1.hpp"
 #include "tests/support/random_search.hpp"
 #include "tests/support/shared_planner.hpp"
@@ -48,7 +49,8 @@ void expect_worth_what_is_said(const SearchProblem& problem, const Plan& plan) {
   EXPECT_EQ(plan.score.complete, exact.complete);
   for (std::size_t m = 0; m < plan.paths.size(); ++m) {
     EXPECT_NEAR(plan.paths[m].duration_s, scorer.path_end_s(static_cast<int>(m)), kAgreement);
-    EXPECT_NEAR(plan.paths[m].length_m, length_m(plan.paths[m].waypoints.span()), 1e-6);
+    EXPECT_NEAR(plan.paths[m].length_m, length_m(plan.paths[m].waypoints.span()),
+                kFixedPoint ? test::kAgreement : 1e-6);
   }
 }
 

@@ -215,7 +215,7 @@ TEST(RouteJudge, JudgesFromAStateItKeptAsItDoesFromTheStart) {
     }
   }
   EXPECT_GT(late, kFixedPoint ? 200 : 400);  // without libccd fewer changes are proved free
-  EXPECT_GT(complete, 50);
+  EXPECT_GT(complete, kFixedPoint ? 25 : 50);
   EXPECT_GT(with_sub_priors, 3);
 }
 
