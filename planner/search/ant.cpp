@@ -1,6 +1,7 @@
 #include "planner/search/ant.hpp"
 
 #include <algorithm>
+#include <span>
 
 #include "planner/search/expected_time.hpp"
 #include "planner/search/first_sightings.hpp"
@@ -93,7 +94,7 @@ int Ant::choose_agent(Rng& rng) noexcept {
   }
   agent_ = left[chosen];
   if (second_wind_) {
-    jump_.start(world_.graph, agent_, at_[index(agent_)]);
+    jump_.start(agent_, at_[index(agent_)]);
     phase_ = Phase::kJump;
     return 1;
   }
@@ -129,29 +130,38 @@ int Ant::choose_node(Rng& rng) noexcept {
   const Edge end = graph.end_edge(here);
   const int agent = agent_;
   const bool by_length = heuristic_ == Heuristic::kTsp;
-  Weight sum{};
+  // First who may be chosen, without a branch that nobody can foresee; then their weights.
+  std::size_t candidates = 0;
   for (Edge e = first; e < end; ++e) {
-    if (!visited(graph.head(e)) && in(graph.open_to(e), agent)) {
-      sum += by_length ? trails_.attraction(agent, e) : trails_.attraction(agent, e, visibility(e));
-    }
-    weights_[index(e - first)] = sum;
+    candidates_[candidates] = e;
+    candidates +=
+        static_cast<std::size_t>(!visited(graph.head(e))) & static_cast<std::size_t>(in(graph.open_to(e), agent));
+  }
+  Weight sum{};
+  for (std::size_t i = 0; i < candidates; ++i) {
+    const Edge e = candidates_[i];
+    sum += by_length ? trails_.attraction(agent, e) : trails_.attraction(agent, e, visibility(e));
+    weights_[i] = sum;
   }
   const int work = work::choice(end - first);
   if (sum <= Weight{}) {
-    jump_.start(graph, agent_, here);
+    jump_.start(agent_, here);
     phase_ = Phase::kJump;
     return work;
   }
   const Weight draw = draw_below(sum, rng);
-  const auto begin = weights_.begin();
-  // The first sum above the draw; a closed edge adds nothing and is never the first. A draw that rounds up to the sum
-  // takes the last.
-  auto found = std::upper_bound(begin, begin + (end - first), draw);
-  if (found == begin + (end - first)) {
-    found = std::lower_bound(begin, begin + (end - first), sum);
+  const std::span<const Weight> sums(weights_.data(), candidates);
+  // The first sum above the draw; an edge of no weight is never the first. Counted: a few dozen are quicker compared
+  // than halved by guesses. A draw that rounds up to the sum takes the last.
+  std::size_t chosen = 0;
+  for (const Weight s : sums) {
+    chosen += s <= draw ? 1U : 0U;
+  }
+  if (chosen == candidates) {
+    chosen = static_cast<std::size_t>(std::lower_bound(sums.begin(), sums.end(), sum) - sums.begin());
   }
   route_.clear();
-  (void)route_.push_back(first + static_cast<Edge>(found - begin));
+  (void)route_.push_back(candidates_[chosen]);
   begin_move();
   return work;
 }
@@ -172,6 +182,9 @@ int Ant::jump() noexcept {
   const int work_before = jump_.work();
   const Node n = jump_.settle_next();
   int work = work::settled(jump_.work() - work_before);
+  if (n == JumpSearch::kCatchingUp) {
+    return work;
+  }
   if (n < 0) {
     retire();
     return work;

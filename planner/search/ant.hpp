@@ -38,7 +38,10 @@ class Ant {
 
   [[nodiscard]] bool done() const noexcept { return phase_ == Phase::kDone; }
   /// Another mission. Cost: the cells with mass.
-  void open() noexcept { sectors_.open(); }
+  void open() noexcept {
+    sectors_.open();
+    jump_.open(world_.graph);
+  }
 
   /// When done: an unscored tour. Cost of the copy: the edges.
   void finish(Tour& tour) const noexcept;
@@ -100,7 +103,8 @@ class Ant {
   std::size_t swath_ = 0;                     // of the edge under way
   int row_ = 0;
   Mass shown_{};
-  std::array<Weight, limits::kNodes> weights_{};
+  std::array<Edge, limits::kNodes + 1> candidates_{};  // of a choice, and room for one that is none
+  std::array<Weight, limits::kNodes> weights_{};       // their running sums
   JumpSearch jump_;
   bool second_wind_ = false;  // all were done once, and what is left is seen to
   Node around_ = -1;          // node whose edges are looked along, and the next of them

@@ -3,34 +3,53 @@
 #include <algorithm>
 
 namespace ivo::planner {
+namespace {
+
+// Of Eq. 8's sum, those in which a cell of this step is unseen: steps 0 and 1 are both credited from the first on.
+int terms_before(std::int32_t step) noexcept { return std::max(step, 1) - 1; }
+
+}  // namespace
 
 void ExpectedTime::add(const Belief& belief, const FirstSightings& sightings, int first, int count) noexcept {
-  ExpectedTime sums = *this;  // in registers
-  sums.whole_ = belief.whole;
-  for (int i = first; i < first + count; ++i) {
-    const Cell c = belief.mass_cells[index(i)];
+  whole_ = belief.whole;
+  if (belief.has_sub_priors) {
+    add_sub_priors(belief, sightings, first, count);
+  }
+  // In registers.
+  Mass seen_mass = seen_mass_;
+  MassTime mass_seconds = mass_seconds_;
+  Mass mass_steps = mass_steps_;
+  for (const Cell c : belief.cells_with_mass().subspan(index(first), index(count))) {
     if (!sightings.seen(c)) {
       continue;
     }
     const Sighting& s = sightings.of(c);
     const Mass p = belief.mass[index(c)];
-    // Step 0 and step 1 are both credited from the first term of the sum on.
-    const int steps = std::max(s.step, 1) - 1;
-    sums.seen_mass_ += p;
-    sums.mass_seconds_ += mass_time(p, s.time_s);
-    sums.mass_steps_ += p * steps;
-    if (belief.has_sub_priors) {
-      const Mass q = belief.sub_mass[s.credited][index(c)];
-      sums.sub_mass_ += q;
-      sums.sub_mass_all_steps_ += q * steps;
-      sums.sub_mass_steps_ += q * std::min(steps, belief.sub_prior_steps);
-    }
-    sums.extend_path(s.agent, s.time_s);
+    seen_mass += p;
+    mass_seconds += mass_time(p, s.time_s);
+    mass_steps += p * terms_before(s.step);
+    extend_path(s.agent, s.time_s);
     if (s.credited != s.agent) {
-      sums.extend_path(s.credited, s.credited_time_s);
+      extend_path(s.credited, sightings.credited_time_s(c));
     }
   }
-  *this = sums;
+  seen_mass_ = seen_mass;
+  mass_seconds_ = mass_seconds;
+  mass_steps_ = mass_steps;
+}
+
+void ExpectedTime::add_sub_priors(const Belief& belief, const FirstSightings& sightings, int first,
+                                  int count) noexcept {
+  for (const Cell c : belief.cells_with_mass().subspan(index(first), index(count))) {
+    if (sightings.seen(c)) {
+      const Sighting& s = sightings.of(c);
+      const int steps = terms_before(s.step);
+      const Mass q = belief.sub_mass[s.credited][index(c)];
+      sub_mass_ += q;
+      sub_mass_all_steps_ += q * steps;
+      sub_mass_steps_ += q * std::min(steps, belief.sub_prior_steps);
+    }
+  }
 }
 
 Seconds ExpectedTime::horizon_s() const noexcept { return *std::max_element(path_end_s_.begin(), path_end_s_.end()); }

@@ -38,6 +38,7 @@ class ExpectedTime {
   [[nodiscard]] PlanScore score(const Belief& belief, double max_unseen_mass) const noexcept;
 
  private:
+  void add_sub_priors(const Belief& belief, const FirstSightings& sightings, int first, int count) noexcept;
   [[nodiscard]] Seconds horizon_s() const noexcept;
   void extend_path(int agent, Seconds to_s) noexcept {
     Seconds& end_s = path_end_s_[index(agent)];

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 
 #include "config/limits.hpp"
 #include "planner/numeric/index.hpp"
@@ -31,63 +32,62 @@ inline constexpr double kStepSeconds = 1.0;
 
 struct Sighting {
   Seconds time_s{};           ///< t_c: first seen by anybody
-  Seconds credited_time_s{};  ///< first seen by the credited agent, in the same step
+  std::int32_t step = 0;      ///< k(c)
   std::uint8_t agent = 0;     ///< who saw it at time_s
   std::uint8_t credited = 0;  ///< w of Eq. 5: the lowest-numbered agent that sees it in the step of time_s
-  std::int32_t step = 0;      ///< k(c)
 };
 
 class FirstSightings {
  public:
-  /// Forgets cells `first` to `first + count - 1`. Cost: eight bytes a cell.
-  void clear(int first, int count) noexcept { std::fill_n(until_s_.begin() + first, count, kNever); }
+  /// Forgets cells `first` to `first + count - 1`. Cost: sixteen bytes a cell.
+  void clear(int first, int count) noexcept { std::fill_n(sightings_.begin() + first, count, kUnseen); }
   void clear(int cells) noexcept { clear(0, cells); }
 
-  [[nodiscard]] bool seen(Cell c) const noexcept { return until_s_[index(c)] != kNever; }
+  [[nodiscard]] bool seen(Cell c) const noexcept { return of(c).step != kNever; }
   /// Of a cell that was seen.
   [[nodiscard]] const Sighting& of(Cell c) const noexcept { return sightings_[index(c)]; }
+  /// When the credited agent first saw it, in the same step.
+  [[nodiscard]] Seconds credited_time_s(Cell c) const noexcept {
+    const Sighting& s = of(c);
+    return s.agent == s.credited ? s.time_s : credited_time_s_[index(c)];
+  }
 
   /// Takes that `agent` sees `c` at `time_s`. Agents come one after the other, the lowest first, and each in the order
   /// of its times: then the first of two that are equal is the one that counts. True when nobody saw it before.
-  bool see(Cell c, int agent, Seconds time_s) noexcept {
-    return time_s < until_s_[index(c)] && take(c, static_cast<std::uint8_t>(agent), time_s);
-  }
-
-  /// How often see() had to look closer: the larger part of its work.
-  [[nodiscard]] int taken() const noexcept { return taken_; }
-
- private:
-#if IVO_PLANNER_FIXED
-  static constexpr Seconds kNever = Seconds::from_raw(std::int64_t{1} << 62);
-#else
-  static constexpr Seconds kNever = 1e300;
-#endif
-
-  bool take(Cell c, std::uint8_t who, Seconds time_s) noexcept {
-    Seconds& until_s = until_s_[index(c)];
+  bool see(Cell c, int agent, Seconds time_s) noexcept { return see(c, agent, time_s, step_of(time_s)); }
+  /// The same for who knows the step of `time_s`.
+  bool see(Cell c, int agent, Seconds time_s, std::int32_t step) noexcept {
     Sighting& s = sightings_[index(c)];
-    ++taken_;
-    const std::int32_t step = step_of(time_s);
-    const bool first = until_s == kNever;
-    if (!first && step > s.step) {
+    if (step > s.step) {
       return false;
     }
-    if (first || step < s.step) {
-      s.credited = who;
-      s.credited_time_s = time_s;
-      s.step = step;
-      until_s = Seconds(step) + Seconds(1e-3);  // later than this it is another step; the step itself decides
+    const auto who = static_cast<std::uint8_t>(agent);
+    if (step < s.step) {
+      const bool first = s.step == kNever;
+      s = {time_s, step, who, who};
+      ++taken_;
+      return first;
     }
-    if (first || time_s < s.time_s) {
+    if (time_s < s.time_s) {
+      if (s.agent == s.credited) {
+        credited_time_s_[index(c)] = s.time_s;
+      }
       s.time_s = time_s;
       s.agent = who;
     }
-    return first;
+    return false;
   }
 
+  /// How often see() found a cell new or seen in a later step: the larger part of its work.
+  [[nodiscard]] int taken() const noexcept { return taken_; }
+
+ private:
+  static constexpr std::int32_t kNever = std::numeric_limits<std::int32_t>::max();
+  static constexpr Sighting kUnseen{.time_s = {}, .step = kNever, .agent = 0, .credited = 0};
+
   int taken_ = 0;
-  std::array<Seconds, limits::kCells> until_s_{};
   std::array<Sighting, limits::kCells> sightings_{};
+  std::array<Seconds, limits::kCells> credited_time_s_{};
 };
 
 }  // namespace ivo::planner

@@ -2,27 +2,84 @@
 
 namespace ivo::planner {
 
-void JumpSearch::start(const Graph& graph, int agent, Node from) noexcept {
-  if (fresh_) {
-    slot_.fill(kOutside);
-    fresh_ = false;
-  }
-  for (int i = 0; i < touched_count_; ++i) {
-    slot_[index(touched_[index(i)])] = kOutside;
-  }
+void JumpSearch::open(const Graph& graph) noexcept {
   graph_ = &graph;
+  slot_.fill(kOutside);
+  touched_count_ = 0;
+  heap_size_ = 0;
+  neighbourhood_of_.fill(kNone);
+  for (Neighbourhood& neighbourhood : neighbourhoods_) {
+    neighbourhood.owner = -1;
+  }
+  oldest_ = 0;
+}
+
+void JumpSearch::start(int agent, Node from) noexcept {
   agent_ = agent;
+  from_ = from;
   work_ = 0;
-  touched_[0] = from;
-  touched_count_ = 1;
-  heap_size_ = 1;
-  distance_m_[index(from)] = 0.0;
-  edge_to_[index(from)] = -1;
-  before_[index(from)] = -1;
-  place(from, 0);
+  told_ = 0;
+  searching_ = false;
+  owner_ = index(agent) * limits::kNodes + index(from);
+  if (neighbourhood_of_[owner_] != kNone) {
+    return;
+  }
+  Neighbourhood& made = neighbourhoods_[oldest_];
+  if (made.owner >= 0) {
+    neighbourhood_of_[index(made.owner)] = kNone;
+  }
+  made.owner = static_cast<std::int32_t>(owner_);
+  made.count = 0;
+  made.whole = false;
+  neighbourhood_of_[owner_] = static_cast<std::int16_t>(oldest_);
+  oldest_ = (oldest_ + 1) % kNeighbourhoods;
 }
 
 Node JumpSearch::settle_next() noexcept {
+  Neighbourhood& known = remembered();
+  if (told_ < known.count) {
+    const Settled& next = known.nodes[index(told_++)];
+    edge_to_[index(next.node)] = next.edge;
+    before_[index(next.node)] = next.before;
+    return next.node;
+  }
+  if (known.whole) {
+    return -1;
+  }
+  if (!searching_) {
+    begin_search();
+  }
+  const Node n = settle();
+  if (n < 0) {
+    known.whole = told_ == known.count;
+    return -1;
+  }
+  if (++followed_ <= told_) {
+    return kCatchingUp;
+  }
+  ++told_;
+  if (known.count < kRemembered && known.count + 1 == told_) {
+    known.nodes[index(known.count++)] = {n, before_[index(n)], edge_to_[index(n)]};
+  }
+  return n;
+}
+
+void JumpSearch::begin_search() noexcept {
+  for (int i = 0; i < touched_count_; ++i) {
+    slot_[index(touched_[index(i)])] = kOutside;
+  }
+  searching_ = true;
+  followed_ = 0;
+  touched_[0] = from_;
+  touched_count_ = 1;
+  heap_size_ = 1;
+  distance_m_[index(from_)] = 0.0;
+  edge_to_[index(from_)] = -1;
+  before_[index(from_)] = -1;
+  place(from_, 0);
+}
+
+Node JumpSearch::settle() noexcept {
   if (heap_size_ == 0) {
     return -1;
   }

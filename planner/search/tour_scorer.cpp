@@ -69,18 +69,21 @@ int TourScorer::replay(int rows) noexcept {
     return events_.prepare(agent_, at_, e, rows);
   }
   const auto events = events_.along(agent_, e);
-  const Pace pace = world_.pace(agent_, e);
+  int work = 1;
+  if (row_ == 0) {
+    work += time_points(e);
+  }
   const int end = std::min(static_cast<int>(events.size()), row_ + rows);
   const int count = end - row_;
   const int taken = sightings_.taken();
   const int agent = agent_;
-  const Seconds begin_s = time_s_;
   for (int i = row_; i < end; ++i) {
     const SightEvent event = events[index(i)];
-    (void)sightings_.see(event.cell(), agent, begin_s + after_points(pace, event.point()));
+    const Instant& instant = instants_[index(event.point())];
+    (void)sightings_.see(event.cell(), agent, instant.time_s, instant.step);
   }
   row_ = end;
-  const int work = 1 + work::events_replayed(count, sightings_.taken() - taken);
+  work += work::events_replayed(count, sightings_.taken() - taken);
   if (row_ == static_cast<int>(events.size())) {
     time_s_ += world_.seconds_along(agent_, e);
     at_ = world_.graph.head(e);
@@ -88,6 +91,17 @@ int TourScorer::replay(int rows) noexcept {
     row_ = 0;
   }
   return work;
+}
+
+// When the edge's sight points are passed: an edge has ten times as many cells as points.
+int TourScorer::time_points(Edge e) noexcept {
+  const Pace pace = world_.pace(agent_, e);
+  const int points = world_.sight.points(e);
+  for (int k = 0; k <= points; ++k) {
+    const Seconds time_s = time_s_ + after_points(pace, k);
+    instants_[index(k)] = {time_s, step_of(time_s)};
+  }
+  return work::points_timed(points + 1);
 }
 
 void TourScorer::begin_agent(int agent) noexcept {

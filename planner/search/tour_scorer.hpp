@@ -37,6 +37,7 @@ class TourScorer {
 
   int clear(int rows) noexcept;
   int replay(int rows) noexcept;
+  int time_points(Edge e) noexcept;
   int sum(int rows) noexcept;
   void begin_agent(int agent) noexcept;
   void finish() noexcept;
@@ -54,6 +55,11 @@ class TourScorer {
   Node at_ = 0;
   Seconds time_s_{};
   int row_ = 0;
+  struct Instant {
+    Seconds time_s{};
+    std::int32_t step = 0;
+  };
+  std::array<Instant, SightTable::kMaxPoint + 1> instants_{};  // of the edge under way, by sight point
 };
 
 }  // namespace ivo::planner

@@ -17,6 +17,7 @@ inline constexpr int kMoveEnd = 38;
 [[nodiscard]] constexpr int bytes(int count) noexcept { return count / 64; }
 
 // Exact scores of tours.
+[[nodiscard]] constexpr int points_timed(int points) noexcept { return points / 2; }
 [[nodiscard]] constexpr int events_replayed(int events, int taken) noexcept { return events * 2 / 5 + taken * 4 / 5; }
 [[nodiscard]] constexpr int cells_summed(int cells, bool sub_priors) noexcept {
   return sub_priors ? cells * 4 : cells * 9 / 4;

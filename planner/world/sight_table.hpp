@@ -74,7 +74,7 @@ class SightTable {
   [[nodiscard]] Refusal add_edge(const Cells& cells, Point a, Point b, int points, double radius_m, Record& record,
                                  AgentSet agents) noexcept;
   void paint(const Cells& cells, Point from, double radius_m) noexcept;
-  void cut(const Cells& cells, int first_point, int last_point, AgentSet agents) noexcept;
+  void cut(const Cells& cells, int common_byte, int first_point, int last_point, AgentSet agents) noexcept;
   void keep(const Swath& swath, AgentSet agents) noexcept;
   [[nodiscard]] bool fits() const noexcept;
   [[nodiscard]] bool fits_nowhere() const noexcept;

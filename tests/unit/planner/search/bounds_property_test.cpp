@@ -111,7 +111,8 @@ std::vector<double> seen_s(const Planner& planner, const SearchProblem& problem)
       seen[index(c)] = std::min(seen[index(c)], way_m / problem.agents[index(m)].speed_mps);
     };
     std::vector<double> way_m(index(graph.nodes()), 1e30);
-    shortest.start(graph, m, m);
+    shortest.open(graph);
+    shortest.start(m, m);
     for (Node n = shortest.settle_next(); n >= 0; n = shortest.settle_next()) {
       const Edge by = shortest.edge_to(n);
       way_m[index(n)] = by < 0 ? 0.0 : way_m[index(shortest.before(n))] + graph.length_m(by);

@@ -69,7 +69,7 @@ TEST_F(FirstSightingsTest, CreditTheLowestAgentOfTheStepNotTheFirst) {
   EXPECT_EQ(sightings_->of(5).time_s, Seconds(4.2));
   EXPECT_EQ(sightings_->of(5).agent, 2);
   EXPECT_EQ(sightings_->of(5).credited, 1);
-  EXPECT_EQ(sightings_->of(5).credited_time_s, Seconds(4.9));
+  EXPECT_EQ(sightings_->credited_time_s(5), Seconds(4.9));
 }
 
 TEST_F(FirstSightingsTest, DoNotCreditALaterStep) {
@@ -84,7 +84,7 @@ TEST_F(FirstSightingsTest, TakeTheCreditAwayWhenAnEarlierStepComesToLight) {
   (void)see(5, 0, 5.1);
   (void)see(5, 2, 4.2);
   EXPECT_EQ(sightings_->of(5).credited, 2);
-  EXPECT_EQ(sightings_->of(5).credited_time_s, Seconds(4.2));
+  EXPECT_EQ(sightings_->credited_time_s(5), Seconds(4.2));
 }
 
 TEST_F(FirstSightingsTest, AreWhatALookAtAllTogetherWouldTell) {
@@ -125,7 +125,7 @@ TEST_F(FirstSightingsTest, AreWhatALookAtAllTogetherWouldTell) {
     ASSERT_EQ(to_double(s.time_s), first.time_s);
     ASSERT_EQ(s.agent, first.agent);
     ASSERT_EQ(s.credited, credited.agent);
-    ASSERT_EQ(to_double(s.credited_time_s), credited.time_s);
+    ASSERT_EQ(to_double(sightings_->credited_time_s(7)), credited.time_s);
   }
 }
 

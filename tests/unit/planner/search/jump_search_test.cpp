@@ -48,9 +48,18 @@ Graph& walled_graph() {
   return graph;
 }
 
+Node next_of(JumpSearch& jump) {
+  Node n = jump.settle_next();
+  while (n == JumpSearch::kCatchingUp) {
+    n = jump.settle_next();
+  }
+  return n;
+}
+
 TEST(JumpSearch, SettlesEveryNodeThatTheAgentCanReachInOrderOfItsDistance) {
   const Graph& graph = walled_graph();
   static JumpSearch jump;
+  jump.open(graph);
   std::mt19937 random(2);
   for (int i = 0; i < 40; ++i) {
     const int agent = i % 2;
@@ -59,10 +68,10 @@ TEST(JumpSearch, SettlesEveryNodeThatTheAgentCanReachInOrderOfItsDistance) {
       from = static_cast<Node>(random() % static_cast<unsigned>(graph.nodes()));
     }
     const std::vector<double> distances_m = slow_distances_m(graph, agent, from);
-    jump.start(graph, agent, from);
+    jump.start(agent, from);
     int settled = 0;
     double before_m = 0.0;
-    for (Node n = jump.settle_next(); n >= 0; n = jump.settle_next()) {
+    for (Node n = next_of(jump); n >= 0; n = next_of(jump)) {
       ++settled;
       double length_m = 0.0;
       for (Node step = n; jump.edge_to(step) >= 0; step = jump.before(step)) {
@@ -81,6 +90,42 @@ TEST(JumpSearch, SettlesEveryNodeThatTheAgentCanReachInOrderOfItsDistance) {
   EXPECT_LT(graph.nodes_reached_by(0), graph.nodes_reached_by(1));
 }
 
+TEST(JumpSearch, TellsOfNodesItRemembersAsIfItSearchedForThem) {
+  static Graph graph;
+  GraphAgents agents;
+  agents.resize(2);
+  agents[0].start = {1.75, 1.75};
+  agents[1].start = {26.25, 1.75};
+  ASSERT_FALSE(graph.build(test::DrawnMap(28.0, 28.0, 0.25).view(), {2.0, 0.4}, agents));  // more nodes than remembered
+  static JumpSearch remembering;
+  static JumpSearch anew;
+  remembering.open(graph);
+  std::mt19937 random(3);
+  int caught_up = 0;
+  for (int i = 0; i < 400; ++i) {
+    const int agent = i % 2;
+    const Node from = static_cast<Node>(random() % 12);
+    const int wanted = static_cast<int>(random() % (i % 7 == 0 ? 220 : 60));
+    remembering.start(agent, from);
+    anew.open(graph);
+    anew.start(agent, from);
+    for (int k = 0; k < wanted; ++k) {
+      Node n = remembering.settle_next();
+      for (; n == JumpSearch::kCatchingUp; n = remembering.settle_next()) {
+        ++caught_up;
+      }
+      ASSERT_EQ(n, anew.settle_next()) << "start " << i << ", node " << k;
+      if (n < 0) {
+        break;
+      }
+      ASSERT_EQ(remembering.edge_to(n), anew.edge_to(n));
+      ASSERT_EQ(remembering.before(n), anew.before(n));
+    }
+  }
+  EXPECT_GT(caught_up, 100);
+  EXPECT_GT(graph.nodes(), 150);
+}
+
 TEST(JumpSearch, SettlesTheLowestNodeFirstOnATie) {
   static Graph graph;
   GraphAgents agents;
@@ -88,7 +133,8 @@ TEST(JumpSearch, SettlesTheLowestNodeFirstOnATie) {
   agents[0].start = {9.0, 9.0};
   ASSERT_FALSE(graph.build(test::DrawnMap(18.0, 18.0, 0.5).view(), {2.0, 0.4}, agents));
   static JumpSearch jump;
-  jump.start(graph, 0, 0);
+  jump.open(graph);
+  jump.start(0, 0);
   EXPECT_EQ(jump.settle_next(), 0);
   Node before = -1;
   for (int i = 0; i < 4; ++i) {  // the four nodes two metres away
