@@ -69,7 +69,7 @@ int TourScorer::replay(int rows) noexcept {
     return events_.prepare(agent_, at_, e, rows);
   }
   const auto events = events_.along(agent_, e);
-  int work = 1;
+  int work = 3;
   if (row_ == 0) {
     work += time_points(e);
   }

@@ -18,11 +18,11 @@ inline constexpr int kMoveEnd = 38;
 
 // Exact scores of tours.
 [[nodiscard]] constexpr int points_timed(int points) noexcept { return points / 2; }
-[[nodiscard]] constexpr int events_replayed(int events, int taken) noexcept { return events * 2 / 5 + taken * 4 / 5; }
+[[nodiscard]] constexpr int events_replayed(int events, int taken) noexcept { return events * 7 / 20 + taken * 7 / 20; }
 [[nodiscard]] constexpr int cells_summed(int cells, bool sub_priors) noexcept {
   return sub_priors ? cells * 4 : cells * 9 / 4;
 }
-inline constexpr int kCellsForgotten = 16;  // for one unit
+inline constexpr int kCellsForgotten = 10;  // for one unit
 
 // Trails.
 [[nodiscard]] constexpr int raised(int trails) noexcept { return trails / 14; }
