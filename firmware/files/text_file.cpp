@@ -54,6 +54,11 @@ bool write_all(int fd, std::string_view contents) noexcept {
   return true;
 }
 
+/// Of a new file beside `path`.
+std::string temporary_name(const std::string& folder, const std::string& path) {
+  return folder + "/." + std::filesystem::path(path).filename().string() + ".XXXXXX";
+}
+
 std::string folder_of(const std::string& path) {
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   return folder.empty() ? "." : folder.string();
@@ -88,7 +93,7 @@ Result<std::string> read_file(const std::string& path) {
 
 Result<void> write_file(const std::string& path, std::string_view contents) {
   const std::string folder = folder_of(path);
-  std::string temporary = folder + "/." + std::filesystem::path(path).filename().string() + ".XXXXXX";
+  std::string temporary = temporary_name(folder, path);
   Descriptor file(::mkostemp(temporary.data(), O_CLOEXEC));
   if (file.get() < 0) {
     return failure(path, "cannot be written");
@@ -105,6 +110,20 @@ Result<void> write_file(const std::string& path, std::string_view contents) {
   if (directory.get() < 0 || ::fsync(directory.get()) != 0) {
     return failure(folder, "cannot be synced");
   }
+  return {};
+}
+
+Result<void> check_writable(const std::string& path) {
+  std::error_code status;
+  if (std::filesystem::is_directory(path, status)) {
+    return Error{path + ": cannot be written: it is a folder; expected a file"};
+  }
+  std::string temporary = temporary_name(folder_of(path), path);
+  const Descriptor file(::mkostemp(temporary.data(), O_CLOEXEC));
+  if (file.get() < 0) {
+    return failure(path, "cannot be written");
+  }
+  ::unlink(temporary.c_str());
   return {};
 }
 

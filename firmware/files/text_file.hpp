@@ -16,6 +16,9 @@ namespace ivo::firmware {
 /// The folder must exist (make_folder).
 [[nodiscard]] Result<void> write_file(const std::string& path, std::string_view contents);
 
+/// Whether write_file could put a file at `path` now; tried beside it, and nothing stays.
+[[nodiscard]] Result<void> check_writable(const std::string& path);
+
 /// The folder and those above it; a folder that is already there is fine.
 [[nodiscard]] Result<void> make_folder(const std::string& path);
 

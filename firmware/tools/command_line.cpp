@@ -17,6 +17,7 @@
 #include "firmware/tools/exit_status.hpp"
 #include "firmware/tools/plan_options.hpp"
 #include "firmware/tools/run_options.hpp"
+#include "firmware/tools/terminal.hpp"
 
 namespace ivo::firmware {
 namespace {
@@ -80,6 +81,22 @@ void add_number(CLI::App& command, const std::string& name, std::optional<Number
       what);
 }
 
+/// What is wrong with the first word, which is a command or an option; empty when nothing is.
+std::string command_fault(const CLI::App& app, int argc, const char* const* argv) {
+  const std::string word = argc > 1 ? argv[1] : "";
+  std::string names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App* /*any*/) { return true; })) {
+    if (command->get_name() == word) {
+      return {};
+    }
+    names += (names.empty() ? "" : ", ") + command->get_name();
+  }
+  if (word.starts_with('-')) {
+    return {};
+  }
+  return (argc > 1 ? "no command is called \"" + word + "\"" : "no command") + "; expected " + names;
+}
+
 CLI::App* add_plan(CLI::App& app, PlanOptions& options, std::optional<int>& threads) {
   CLI::App* command = app.add_subcommand("plan", "Plan a mission; nothing moves");
   command->add_option("MISSION", options.mission, "Mission file, as config/missions/courtyard.toml")->required();
@@ -100,6 +117,8 @@ CLI::App* add_score(CLI::App& app, ScoreOptions& options) {
   command->add_option("MISSION", options.mission, "Mission file")->required();
   command->add_option("PLAN", options.plan, "Plan, as plan.json: agents and their waypoints")->required();
   command->add_option("--json", options.json, "File for the score")->check(not_empty);
+  command->add_option("--out", options.out, "Folder for score.json and a picture of the plan, search.png")
+      ->check(not_empty);
   return command;
 }
 
@@ -154,6 +173,9 @@ int command_line(int argc, const char* const* argv) {
   bench::CommandOptions bench_options;
   CLI::App* const bench_command = add_bench(app, bench_options);
 
+  if (const std::string fault = command_fault(app, argc, argv); !fault.empty()) {
+    return refuse({fault});
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

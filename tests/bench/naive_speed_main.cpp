@@ -16,6 +16,7 @@
 #include "firmware/tools/bench/bench_report.hpp"
 #include "firmware/tools/bench/trial.hpp"
 #include "firmware/tools/exit_status.hpp"
+#include "firmware/tools/terminal.hpp"
 #include "tests/support/naive_planner.hpp"
 
 namespace {
@@ -109,8 +110,8 @@ int main(int argc, char** argv) {
   const double median_s = planner_s[kRuns / 2];
   const double worst_s = *std::max_element(planner_s.begin(), planner_s.end());
   bench::Sheet sheet("naive");
-  const std::string name = scene.value().name + ", 3.5 m, " + std::to_string(options.generations) + " generations of " +
-                           std::to_string(options.ants) + " ants";
+  const std::string name =
+      scene.value().name + ", 3.5 m, " + counted(options.generations, "generation") + " of " + counted(options.ants, "ant");
   sheet.add(name, "planner, an ant", 1e6 * median_s / ants, "us");
   sheet.add(name, "planner, an ant, worst", 1e6 * worst_s / ants, "us");
   sheet.add(name, "naive planner, an ant", 1e6 * naive_s / ants, "us");

@@ -49,6 +49,10 @@ class Bench(unittest.TestCase):
         done = ivo("bench", "fastest")
         self.assertEqual(done.returncode, 2)
         self.assertRegex(done.stderr, r'^ivo: no bench is called "fastest"; expected table1, speed, quality, compare, scale, all\n$')
+        for path in ("/nowhere/records.json", os.path.dirname(self.json)):  # at once, not after the work
+            done = ivo("bench", "all", "--json", path)
+            self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1))
+            self.assertIn(f"ivo: {path}: cannot be written: ", done.stderr)
         done = ivo("bench", "scale", "--data", "/nowhere")
         self.assertEqual(done.returncode, 2)
         self.assertEqual(done.stderr.count("\n"), 1)

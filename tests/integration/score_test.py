@@ -63,6 +63,21 @@ class Score(unittest.TestCase):
             self.assertEqual(score["agents"][0]["preferred_share"], None)
             self.assertEqual(score["agents"][1]["preferred_share"] is None, i == 0)
 
+    def test_a_folder_gets_the_score_and_a_picture(self):
+        out = os.path.join(self.folder, "out")
+        score = self.score([HERE, THERE], "--out", out)
+        self.assertEqual(sorted(os.listdir(out)), ["score.json", "search.png"])
+        self.assertEqual(read_json(out, "score.json"), score)
+        with open(os.path.join(out, "search.png"), "rb") as file:
+            self.assertTrue(file.read().startswith(b"\x89PNG"))
+
+    def test_what_cannot_be_written_is_refused(self):
+        plan = self.put([HERE, THERE])
+        for option, path in (("--json", "/nowhere/score.json"), ("--json", self.folder), ("--out", plan), ("--out", "/proc/nobody")):
+            done = ivo("score", self.mission, plan, option, path)
+            self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), done.stderr)
+            self.assertIn(f"ivo: {path}: cannot be ", done.stderr)
+
     def test_names_and_waypoints_are_enough_and_nothing_else_is_trusted(self):
         bare = self.score([HERE, THERE])
         lying = self.score([dict(HERE, speed_mps=1e9, length_m=-1, kind="dog"), dict(THERE, sight_radius_m="x")])

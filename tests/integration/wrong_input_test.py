@@ -96,6 +96,11 @@ class WrongInput(unittest.TestCase):
         self.refused(["run", mission, "--can", ""], ["--can", "empty"])
         self.refused(["run", mission, "--speed", "fast"], ["--speed", "fast", "max"])
 
+    def test_an_unknown_command_is_refused_with_those_that_there_are(self):
+        done = ivo("bogus")
+        self.assertEqual((done.returncode, done.stderr),
+                         (2, 'ivo: no command is called "bogus"; expected run, plan, score, bench\n'))
+
     def test_a_command_line_that_makes_no_sense_is_refused(self):
         for args in ([], ["walk"], ["run"], ["run", "x.toml", "--bogus"]):
             done = ivo(*args)

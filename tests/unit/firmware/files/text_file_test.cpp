@@ -40,6 +40,20 @@ TEST(TextFile, RefusesToWriteIntoAFolderThatIsNotThere) {
             folder.path("none/a.txt") + ": cannot be written: No such file or directory");
 }
 
+TEST(TextFile, KnowsBeforehandWhatCannotBeWritten) {
+  const ScratchFolder folder;
+  ASSERT_TRUE(make_folder(folder.path("taken")).ok());
+  ASSERT_TRUE(write_file(folder.path("a.txt"), "old").ok());
+  EXPECT_TRUE(check_writable(folder.path("a.txt")).ok());
+  EXPECT_TRUE(check_writable(folder.path("b.txt")).ok());
+  EXPECT_EQ(check_writable(folder.path("taken")).error().message,
+            folder.path("taken") + ": cannot be written: it is a folder; expected a file");
+  EXPECT_EQ(check_writable(folder.path("none/a.txt")).error().message,
+            folder.path("none/a.txt") + ": cannot be written: No such file or directory");
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.txt", "taken"}));
+  EXPECT_EQ(read_file(folder.path("a.txt")).value(), "old");
+}
+
 TEST(TextFile, LeavesNothingBehindWhenTheRenameFails) {
   const ScratchFolder folder;
   ASSERT_TRUE(make_folder(folder.path("taken/inner")).ok());
