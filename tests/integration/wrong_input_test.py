@@ -102,10 +102,22 @@ class WrongInput(unittest.TestCase):
                          (2, 'ivo: no command is called "bogus"; expected run, plan, score, bench\n'))
 
     def test_a_command_line_that_makes_no_sense_is_refused(self):
-        for args in ([], ["walk"], ["run"], ["run", "x.toml", "--bogus"]):
+        for args, says in (
+            ([], "no command; expected run, plan, score, bench"),
+            (["--version"], 'no command is called "--version"; expected run, plan, score, bench'),
+            (["run"], "MISSION is required"),
+            (["run", ""], "MISSION: is empty; expected a name"),
+            (["score", "x.toml", ""], "PLAN: is empty; expected a name"),
+            (["run", "x.toml", "--bogus"], "not expected: --bogus"),
+            (["plan", "x.toml", "--seed"], "--seed: has no value; expected one"),
+            (["bench", "speed", "--json"], "--json: has no value; expected one"),
+            (["plan", "x.toml", "--seed", "1", "--seed", "2"], "--seed: is given twice; expected once"),
+        ):
             done = ivo(*args)
             self.assertEqual(done.returncode, 2, args)
             self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+            self.assertTrue(done.stderr.startswith("ivo: "), done.stderr)
+            self.assertIn(says, done.stderr)
 
 
 if __name__ == "__main__":
