@@ -2,6 +2,7 @@
 #include "firmware/files/json_value.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <nlohmann/json.hpp>
 
 namespace ivo::firmware {
@@ -101,7 +102,11 @@ bool too_deep(std::string_view text) {
 /// `byte` is where the library gave up, counted from 1; beyond the text when it ended too early.
 Error no_json(std::string_view text, std::size_t byte, const std::string& path, const std::string& what) {
   constexpr std::size_t kShown = 12;
-  const std::size_t at = std::min(byte > 0 ? byte - 1 : 0, text.size());
+  std::size_t at = std::min(byte > 0 ? byte - 1 : 0, text.size());
+  const auto in_word = [&](std::size_t i) { return i < text.size() && std::isalnum(static_cast<unsigned char>(text[i])) != 0; };
+  while (at > 0 && in_word(at) && in_word(at - 1)) {
+    --at;  // it may have read a part of a word
+  }
   const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
   const std::string fault =
       at == text.size() ? "ends too early" : "\"" + std::string(text.substr(at, kShown)) + "\" cannot stand here";

@@ -5,7 +5,7 @@ import os
 import tempfile
 import unittest
 
-from mission_files import BUILDING, MISSION, ivo, plaza, write_mission
+from mission_files import BUILDING, MISSION, PAVEMENT, ivo, plaza, write_mission
 
 WALLED_IN = plaza()
 for column in range(48):
@@ -60,6 +60,9 @@ CASES = {
     "an object in a wall": (MISSION.replace('"drawn"', "[5.0, 9.0]"), NORTH_WALL, ["mission.toml:4: object", "building"]),
     "an object outside": (MISSION.replace('"drawn"', "[50.0, 1.0]"), None, ["mission.toml:4: object", "outside the map"]),
     "too many cells": (MISSION.replace("[planner]", "[planner]\ncell_m = 0.01"), None, ["planner.cell_m: the map has too many cells: 1440000, more than this build's 1048576; expected a larger cell_m; the planner profile that fits is desktop"]),
+    "a narrow map that is too long": (MISSION.replace("[1.5, 1.5]", "[0.5, 1.5]").replace("[10.5, 1.5]", "[0.5, 5.0]"),
+                                      [[PAVEMENT] * 4] * 40_000,  # a row of 4 takes the room of 32
+                                      ["planner.cell_m: the map has too many cells: 1280000, more than this build's 1048576"]),
     "two robots": (MISSION.replace('kind = "person"', 'kind = "robot"\nrobot = "x.toml"'), None, ["mission.toml:", "robot"]),
     "a robot file that is not there": (MISSION.replace("ivo.toml", "nobody.toml"), None, ["mission.toml:14: agent[0].robot:", "nobody.toml"]),
 }
