@@ -103,7 +103,9 @@ bool too_deep(std::string_view text) {
 Error no_json(std::string_view text, std::size_t byte, const std::string& path, const std::string& what) {
   constexpr std::size_t kShown = 12;
   std::size_t at = std::min(byte > 0 ? byte - 1 : 0, text.size());
-  const auto in_word = [&](std::size_t i) { return i < text.size() && std::isalnum(static_cast<unsigned char>(text[i])) != 0; };
+  const auto in_word = [&](std::size_t i) {
+    return i < text.size() && std::isalnum(static_cast<unsigned char>(text[i])) != 0;
+  };
   while (at > 0 && in_word(at) && in_word(at - 1)) {
     --at;  // it may have read a part of a word
   }

@@ -59,8 +59,8 @@ Result<void> no_other_thing(const std::string& path) {
   std::error_code unknown;  // says for itself when it is written
   const std::filesystem::file_status there = std::filesystem::status(path, unknown);
   if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there)) {
-    return Error{path + ": cannot be written: it is " + (std::filesystem::is_directory(there) ? "a folder" : "a pipe or a device") +
-                 "; expected a file"};
+    return Error{path + ": cannot be written: it is " +
+                 (std::filesystem::is_directory(there) ? "a folder" : "a pipe or a device") + "; expected a file"};
   }
   return {};
 }

@@ -141,7 +141,7 @@ CLI::App* add_bench(CLI::App& app, bench::CommandOptions& options) {
   command->add_option("NAME", options.name, "Which bench, or all; without a name a list of them")->check(not_empty);
   command->add_option("--json", options.json, "File for the figures")->check(not_empty);
   command->add_flag("--quick", options.bench.quick, "Shortened: for a look, not for figures");
-  command->add_option("--data", options.bench.data, "Folder with dubai/ and sarenv/, for scale")
+  command->add_option("--data", options.bench.data, "Folder with dubai/ and sarenv/, for compare and scale")
       ->check(CLI::ExistingDirectory);
   return command;
 }

@@ -41,11 +41,11 @@ void show_mission(const PlanView& view) {
     show_agent(agent);
   }
   say("prior", prior_text(view.inputs));
-  say("graph",
-      counted(view.planner.graph().nodes(), "node") + format(" %.2f m apart, ", mission.planner.spacing_m) +
-          counted(view.planner.graph().edges(), "edge") + ", " + counted(view.planner.cells().count(), "cell") +
-          format(" of %.2f m, %.1f %% of the prior out of everybody's sight", mission.planner.cell_m,
-                 100 * view.planner.belief().unobservable_share));
+  say("graph", counted(view.planner.graph().nodes(), "node") + format(" %.2f m apart, ", mission.planner.spacing_m) +
+                   counted(view.planner.graph().edges(), "edge") + ", " +
+                   counted(view.planner.cells().count(), "cell") +
+                   format(" of %.2f m, %.1f %% of the prior out of everybody's sight", mission.planner.cell_m,
+                          100 * view.planner.belief().unobservable_share));
   for (std::size_t m = 0; m < mission.agents.size(); ++m) {
     if (view.planner.graph().nodes_reached_by(static_cast<int>(m)) == 1) {
       say("note", mission.agents[m].name + " reaches no other node of the graph from its start");
@@ -65,9 +65,9 @@ void show_progress(LiveLine& line, const PlanView& view, const planner::Progress
   if (!line.due(part, whole)) {
     return;
   }
-  std::string text = by_time ? format("%.1f of %.1f s, ", time.elapsed_s, time.limit_s) +
-                                   counted(progress.generation, "generation")
-                             : format("%d of ", progress.generation) + counted(progress.generations, "generation");
+  std::string text =
+      by_time ? format("%.1f of %.1f s, ", time.elapsed_s, time.limit_s) + counted(progress.generation, "generation")
+              : format("%d of ", progress.generation) + counted(progress.generations, "generation");
   if (progress.has_plan) {
     const planner::PlanScore& best = progress.best;
     text += format(", ET %.1f s, ET_c %.1f s, unseen %.1f %%", best.expected_time_s, best.expected_time_continuous_s,
@@ -84,8 +84,7 @@ void show_paths(const PlanView& view, const planner::Plan& plan) {
   const auto& agents = view.inputs.file.mission.agents;
   for (std::size_t m = 0; m < agents.size(); ++m) {
     const planner::AgentPath& path = plan.paths[m];
-    say("", agents[m].name +
-                format(": %.1f m, %.0f s, ", path.length_m, path.duration_s) +
+    say("", agents[m].name + format(": %.1f m, %.0f s, ", path.length_m, path.duration_s) +
                 counted(static_cast<int>(path.waypoints.size()), "waypoint") + ", ends at " +
                 place_text(path.waypoints.back()));
   }

@@ -78,7 +78,8 @@ int main(int argc, char** argv) {
   using namespace firmware;
   Options options;
   if (!read(argc, argv, options)) {
-    (void)std::fprintf(stderr, "ivo-naive: expected [--map m1|m2] [--generations N] [--ants N] [--json FILE], N from 1 to 10000\n");
+    (void)std::fprintf(
+        stderr, "ivo-naive: expected [--map m1|m2] [--generations N] [--ants N] [--json FILE], N from 1 to 10000\n");
     return exit_status::kWrongInput;
   }
   const Result<bench::Scene> scene = bench::paper_scene(options.map, bench::PaperPrior::kUniform, 3.5);
@@ -110,8 +111,8 @@ int main(int argc, char** argv) {
   const double median_s = planner_s[kRuns / 2];
   const double worst_s = *std::max_element(planner_s.begin(), planner_s.end());
   bench::Sheet sheet("naive");
-  const std::string name =
-      scene.value().name + ", 3.5 m, " + counted(options.generations, "generation") + " of " + counted(options.ants, "ant");
+  const std::string name = scene.value().name + ", 3.5 m, " + counted(options.generations, "generation") + " of " +
+                           counted(options.ants, "ant");
   sheet.add(name, "planner, an ant", 1e6 * median_s / ants, "us");
   sheet.add(name, "planner, an ant, worst", 1e6 * worst_s / ants, "us");
   sheet.add(name, "naive planner, an ant", 1e6 * naive_s / ants, "us");

@@ -57,7 +57,7 @@ class ShortSight {
   static constexpr int kSide = limits::kNodes >= 16'384 ? 128 : limits::kNodes >= 4'096 ? 64 : 16;
   static constexpr double kSpacing_m = 12.0;
 
-  test::DrawnMap map_{kSide * kSpacing_m, kSide * kSpacing_m, 1.0};
+  test::DrawnMap map_{kSide * kSpacing_m, kSide* kSpacing_m, 1.0};
   std::vector<Point> positions_;
   std::vector<Edge> first_edge_;
   std::vector<Node> heads_;
