@@ -103,7 +103,7 @@ Result<std::string> read_file(const std::string& path) {
 }
 
 Result<void> write_file(const std::string& path, std::string_view contents) {
-  if (const Result<void> replaceable = no_other_thing(path); !replaceable) {
+  if (Result<void> replaceable = no_other_thing(path); !replaceable) {
     return replaceable;
   }
   const std::string folder = folder_of(path);
@@ -128,7 +128,7 @@ Result<void> write_file(const std::string& path, std::string_view contents) {
 }
 
 Result<void> check_writable(const std::string& path) {
-  if (const Result<void> replaceable = no_other_thing(path); !replaceable) {
+  if (Result<void> replaceable = no_other_thing(path); !replaceable) {
     return replaceable;
   }
   std::string temporary = temporary_name(folder_of(path), path);

@@ -6,11 +6,11 @@
 namespace ivo::firmware {
 
 Result<void> open_folder(const std::string& folder, std::initializer_list<const char*> names) {
-  if (const Result<void> made = make_folder(folder); !made) {
+  if (Result<void> made = make_folder(folder); !made) {
     return made;
   }
   for (const char* const name : names) {
-    if (const Result<void> writable = check_writable(folder + "/" + name); !writable) {
+    if (Result<void> writable = check_writable(folder + "/" + name); !writable) {
       return writable;
     }
   }
