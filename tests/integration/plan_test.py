@@ -16,6 +16,12 @@ from terminals import open_terminal
 PREFERRED = MISSION + "preferred = [{ rectangle_m = [6.0, 6.0, 12.0, 12.0] }]\n"
 
 
+def handles(process, number):
+    with open(f"/proc/{process}/status", encoding="utf-8") as file:
+        caught = next(line for line in file if line.startswith("SigCgt:"))
+    return int(caught.split()[1], 16) >> (number - 1) & 1 == 1
+
+
 class Plan(unittest.TestCase):
     def setUp(self):
         scratch = tempfile.TemporaryDirectory()
@@ -216,12 +222,13 @@ class Plan(unittest.TestCase):
             self.assertIn(f"ivo: {out}", done.stderr)
 
     def test_ctrl_c_while_graph_and_tables_are_built_ends_at_once_and_leaves_nothing(self):
-        # 200 x 200 m at 0.25 m: a second and more of building.
+        # 192 x 192 m in cells of 0.25 m: seconds of building.
         mission = write_mission(self.folder, MISSION.replace("spacing_m = 3.0", "spacing_m = 4.0"),
                                 map_text='image = "map.png"\nresolution_m = 4.0\n')
         process = subprocess.Popen([IVO, "plan", mission, "--out", self.out], stdin=subprocess.DEVNULL,
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        time.sleep(0.3)
+        while not handles(process.pid, signal.SIGINT):
+            time.sleep(0.01)
         process.send_signal(signal.SIGINT)
         self.assertEqual(process.communicate(), ("", "ivo: stopped before there was a plan; nothing was written\n"))
         self.assertEqual(process.returncode, 1)
