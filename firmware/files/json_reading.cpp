@@ -72,7 +72,8 @@ const Json& JsonReading::list(const Json& object, const std::string& at, const c
   static const Json kEmpty = Json::list();
   const Json* const value = field(object, at, key);
   if (value == nullptr || value->kind != Json::Kind::kList || value->elements.empty()) {
-    fault(at + key, "is no list; expected a list of at least one");
+    const bool empty = value != nullptr && value->kind == Json::Kind::kList;
+    fault(at + key, std::string(empty ? "is empty" : "is no list") + "; expected a list of at least one");
     return kEmpty;
   }
   return *value;

@@ -1,6 +1,8 @@
 // The only file that includes nlohmann-json, which takes seconds to compile.
 #include "firmware/files/json_value.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <nlohmann/json.hpp>
 
 namespace ivo::firmware {
@@ -97,6 +99,22 @@ bool too_deep(std::string_view text) {
   return false;
 }
 
+/// `byte` is where the library gave up, counted from 1; beyond the text when it ended too early.
+Error no_json(std::string_view text, std::size_t byte, const std::string& path, const std::string& what) {
+  constexpr std::size_t kShown = 12;
+  std::size_t at = std::min(byte > 0 ? byte - 1 : 0, text.size());
+  const auto in_word = [&](std::size_t i) {
+    return i < text.size() && std::isalnum(static_cast<unsigned char>(text[i])) != 0;
+  };
+  while (at > 0 && in_word(at) && in_word(at - 1)) {
+    --at;  // it may have read a part of a word
+  }
+  const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+  const std::string fault =
+      at == text.size() ? "ends too early" : "\"" + std::string(text.substr(at, kShown)) + "\" cannot stand here";
+  return Error{path + ":" + std::to_string(line) + ": not JSON: " + fault + "; expected " + what};
+}
+
 }  // namespace
 
 Json::Json(std::uint64_t value) : kind(Kind::kCount), count(value), real(static_cast<double>(value)) {}
@@ -133,6 +151,8 @@ Result<Json> parse_json(std::string_view text, const std::string& path, const st
     return value_of(Library::parse(text));
   } catch (const Library::out_of_range&) {
     return Error{path + ": holds a number beyond all bounds; expected finite numbers"};
+  } catch (const Library::parse_error& error) {
+    return no_json(text, error.byte, path, what);
   } catch (const Library::exception&) {
     return Error{path + ": not JSON; expected " + what};
   }

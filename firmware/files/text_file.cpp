@@ -54,6 +54,22 @@ bool write_all(int fd, std::string_view contents) noexcept {
   return true;
 }
 
+/// A folder cannot be replaced by a file, and a device must not be.
+Result<void> no_other_thing(const std::string& path) {
+  std::error_code unknown;  // says for itself when it is written
+  const std::filesystem::file_status there = std::filesystem::status(path, unknown);
+  if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there)) {
+    return Error{path + ": cannot be written: it is " +
+                 (std::filesystem::is_directory(there) ? "a folder" : "a pipe or a device") + "; expected a file"};
+  }
+  return {};
+}
+
+/// Of a new file beside `path`.
+std::string temporary_name(const std::string& folder, const std::string& path) {
+  return folder + "/." + std::filesystem::path(path).filename().string() + ".XXXXXX";
+}
+
 std::string folder_of(const std::string& path) {
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   return folder.empty() ? "." : folder.string();
@@ -87,8 +103,11 @@ Result<std::string> read_file(const std::string& path) {
 }
 
 Result<void> write_file(const std::string& path, std::string_view contents) {
+  if (Result<void> replaceable = no_other_thing(path); !replaceable) {
+    return replaceable;
+  }
   const std::string folder = folder_of(path);
-  std::string temporary = folder + "/." + std::filesystem::path(path).filename().string() + ".XXXXXX";
+  std::string temporary = temporary_name(folder, path);
   Descriptor file(::mkostemp(temporary.data(), O_CLOEXEC));
   if (file.get() < 0) {
     return failure(path, "cannot be written");
@@ -105,6 +124,19 @@ Result<void> write_file(const std::string& path, std::string_view contents) {
   if (directory.get() < 0 || ::fsync(directory.get()) != 0) {
     return failure(folder, "cannot be synced");
   }
+  return {};
+}
+
+Result<void> check_writable(const std::string& path) {
+  if (Result<void> replaceable = no_other_thing(path); !replaceable) {
+    return replaceable;
+  }
+  std::string temporary = temporary_name(folder_of(path), path);
+  const Descriptor file(::mkostemp(temporary.data(), O_CLOEXEC));
+  if (file.get() < 0) {
+    return failure(path, "cannot be written");
+  }
+  ::unlink(temporary.c_str());
   return {};
 }
 

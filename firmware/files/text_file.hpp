@@ -13,8 +13,11 @@ namespace ivo::firmware {
 
 /// Puts `contents` at `path` at once: a reader sees the old file or the new one, never a part, also after a power cut.
 /// Written beside the target, synced, renamed; on failure the target is as it was and nothing is left behind.
-/// The folder must exist (make_folder).
+/// The folder must exist (make_folder), and what is there by that name must be a file: a device stays what it is.
 [[nodiscard]] Result<void> write_file(const std::string& path, std::string_view contents);
+
+/// Whether write_file could put a file at `path` now; tried beside it, and nothing stays.
+[[nodiscard]] Result<void> check_writable(const std::string& path);
 
 /// The folder and those above it; a folder that is already there is fine.
 [[nodiscard]] Result<void> make_folder(const std::string& path);

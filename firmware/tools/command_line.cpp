@@ -17,6 +17,7 @@
 #include "firmware/tools/exit_status.hpp"
 #include "firmware/tools/plan_options.hpp"
 #include "firmware/tools/run_options.hpp"
+#include "firmware/tools/terminal.hpp"
 
 namespace ivo::firmware {
 namespace {
@@ -80,9 +81,37 @@ void add_number(CLI::App& command, const std::string& name, std::optional<Number
       what);
 }
 
+/// The library counts arguments of a type; people give an option its value, once.
+std::string plain(const CLI::Error& error) {
+  const std::string text = error.what();
+  const std::string option = text.substr(0, text.find(':'));
+  if (text.find(" required TEXT missing") != std::string::npos) {
+    return option + ": has no value; expected one";
+  }
+  return text.find("At Most 1 required") != std::string::npos ? option + ": is given twice; expected once" : text;
+}
+
+/// What is wrong with the first word, which is a command or asks for help; empty when nothing is.
+std::string command_fault(const CLI::App& app, int argc, const char* const* argv) {
+  const std::string word = argc > 1 ? argv[1] : "";
+  std::string names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App* /*any*/) { return true; })) {
+    if (command->get_name() == word) {
+      return {};
+    }
+    names += (names.empty() ? "" : ", ") + command->get_name();
+  }
+  if (word == "-h" || word == "--help") {
+    return {};
+  }
+  return (argc > 1 ? "no command is called \"" + word + "\"" : "no command") + "; expected " + names;
+}
+
 CLI::App* add_plan(CLI::App& app, PlanOptions& options, std::optional<int>& threads) {
   CLI::App* command = app.add_subcommand("plan", "Plan a mission; nothing moves");
-  command->add_option("MISSION", options.mission, "Mission file, as config/missions/courtyard.toml")->required();
+  command->add_option("MISSION", options.mission, "Mission file, as config/missions/courtyard.toml")
+      ->required()
+      ->check(not_empty);
   add_choice(*command, "--profile", options.profile, kSearchProfileWords, "instead of the mission's");
   add_choice(*command, "--heuristic", options.heuristic, kSearchHeuristicWords, "instead of the mission's");
   add_number(*command, "--time-limit", options.time_limit_s, 0.001, 86400.0,
@@ -97,9 +126,13 @@ CLI::App* add_plan(CLI::App& app, PlanOptions& options, std::optional<int>& thre
 
 CLI::App* add_score(CLI::App& app, ScoreOptions& options) {
   CLI::App* command = app.add_subcommand("score", "Score a plan of any origin on a mission");
-  command->add_option("MISSION", options.mission, "Mission file")->required();
-  command->add_option("PLAN", options.plan, "Plan, as plan.json: agents and their waypoints")->required();
+  command->add_option("MISSION", options.mission, "Mission file")->required()->check(not_empty);
+  command->add_option("PLAN", options.plan, "Plan, as plan.json: agents and their waypoints")
+      ->required()
+      ->check(not_empty);
   command->add_option("--json", options.json, "File for the score")->check(not_empty);
+  command->add_option("--out", options.out, "Folder for score.json and a picture of the plan, search.png")
+      ->check(not_empty);
   return command;
 }
 
@@ -108,7 +141,7 @@ CLI::App* add_bench(CLI::App& app, bench::CommandOptions& options) {
   command->add_option("NAME", options.name, "Which bench, or all; without a name a list of them")->check(not_empty);
   command->add_option("--json", options.json, "File for the figures")->check(not_empty);
   command->add_flag("--quick", options.bench.quick, "Shortened: for a look, not for figures");
-  command->add_option("--data", options.bench.data, "Folder with dubai/ and sarenv/, for scale")
+  command->add_option("--data", options.bench.data, "Folder with dubai/ and sarenv/, for compare and scale")
       ->check(CLI::ExistingDirectory);
   return command;
 }
@@ -119,14 +152,15 @@ int command_line(int argc, const char* const* argv) {
   CLI::App app("IVO search controller: a robot and a person find something together", "ivo");
   app.require_subcommand(1);
   app.failure_message([](const CLI::App*, const CLI::Error& error) {
-    return std::string("ivo: ") + error.what() + "; ivo --help shows what there is\n";
+    return "ivo: " + plain(error) + "; ivo --help shows what there is\n";
   });
 
   RunOptions run_options;
   std::string clock = "real";
   CLI::App* run_command = app.add_subcommand("run", "Plan a mission, ask for consent, search");
   run_command->add_option("MISSION", run_options.mission, "Mission file, as config/missions/courtyard.toml")
-      ->required();
+      ->required()
+      ->check(not_empty);
   run_command->add_flag("--yes", run_options.yes,
                         "Consent to the plans beforehand: the robot moves without a question");
   run_command->add_option_function<std::string>(
@@ -154,6 +188,9 @@ int command_line(int argc, const char* const* argv) {
   bench::CommandOptions bench_options;
   CLI::App* const bench_command = add_bench(app, bench_options);
 
+  if (const std::string fault = command_fault(app, argc, argv); !fault.empty()) {
+    return refuse({fault});
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

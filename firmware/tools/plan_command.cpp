@@ -3,12 +3,12 @@
 #include <limits>
 #include <utility>
 
-#include "firmware/files/text_file.hpp"
 #include "firmware/tools/colonies.hpp"
 #include "firmware/tools/exit_status.hpp"
 #include "firmware/tools/plan_options.hpp"
 #include "firmware/tools/plan_terminal.hpp"
 #include "firmware/tools/planner_object.hpp"
+#include "firmware/tools/result_files.hpp"
 #include "firmware/tools/stop_signal.hpp"
 
 namespace ivo::firmware {
@@ -47,22 +47,10 @@ double search(Colonies& colonies, const PlanOptions& options, const PlanView& vi
   return seconds_since(begin);
 }
 
-bool keep(const std::string& path, const Result<std::string>& contents) {
-  if (!contents) {
-    complain(contents.error());
-    return false;
-  }
-  if (const Result<void> written = write_file(path, contents.value()); !written) {
-    complain(written.error());
-    return false;
-  }
-  say("wrote", path);
-  return true;
-}
-
 }  // namespace
 
 int plan(const PlanOptions& options) {
+  end_on_signals("ivo: stopped before there was a plan; nothing was written\n");
   Result<MissionInputs> read = read_inputs(options.mission);
   if (!read) {
     return refuse(read.error());
@@ -74,7 +62,6 @@ int plan(const PlanOptions& options) {
   if (!colonies) {
     return refuse(colonies.error());
   }
-  stop_on_signals();
   const SteadyClock::time_point begin = SteadyClock::now();
   if (const Result<void> prepared = prepare(planner, inputs); !prepared) {
     return refuse(prepared.error());
@@ -83,12 +70,13 @@ int plan(const PlanOptions& options) {
   const double prepare_s = seconds_since(begin);
   const std::string out =
       options.out.empty() ? "out/" + std::filesystem::path(options.mission).stem().string() : options.out;
-  if (const Result<void> made = make_folder(out); !made) {
-    return refuse(made.error());
+  if (const Result<void> opened = open_folder(out, {"plan.json", "search.png"}); !opened) {
+    return refuse(opened.error());
   }
 
   const PlanView view{inputs, planner};
   show_mission(view);
+  stop_on_signals();
   const double search_s = search(colonies.value(), options, view);
   const planner::Progress progress = colonies.value().progress();
   if (!progress.has_plan) {
@@ -99,8 +87,8 @@ int plan(const PlanOptions& options) {
   colonies.value().best_plan(best);
   show_score(view, best.score);
   show_paths(view, best);
-  say("time",
-      format("graph and tables %.2f s, search %.2f s, %d generations", prepare_s, search_s, progress.generation));
+  say("time", format("graph and tables %.2f s, search %.2f s, ", prepare_s, search_s) +
+                  counted(progress.generation, "generation"));
   const PlanSearch how{.generations_done = progress.generation, .threads = options.threads};
   const bool plan_kept = keep(out + "/plan.json", plan_json(plan_document(view, best, how)));
   const bool picture_kept = keep(out + "/search.png", picture_png(plan_picture(view, best, "plan")));

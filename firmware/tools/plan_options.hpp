@@ -25,6 +25,7 @@ struct ScoreOptions {
   std::string mission;
   std::string plan;
   std::string json;  ///< file for the score; empty: none
+  std::string out;   ///< folder for score.json and the picture; empty: none
 };
 
 /// The whole of `ivo plan`. Returns the exit status: 0 searched to the end, 1 stopped or not written, 2 wrong input.

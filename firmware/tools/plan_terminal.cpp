@@ -27,7 +27,7 @@ void show_agent(const AgentSpec& agent) {
   say(agent.kind == AgentKind::kRobot ? "robot" : "person",
       agent.name + " from " + place_text(agent.start) +
           format(", %.2f m/s, sees %.1f m", agent.speed_mps, agent.sight_radius_m) +
-          (areas == 0 ? std::string() : format(", %d preferred %s", areas, areas == 1 ? "area" : "areas")));
+          (areas == 0 ? std::string() : ", " + counted(areas, "preferred area")));
 }
 
 }  // namespace
@@ -41,10 +41,11 @@ void show_mission(const PlanView& view) {
     show_agent(agent);
   }
   say("prior", prior_text(view.inputs));
-  say("graph",
-      format("%d nodes %.2f m apart, %d edges, %d cells of %.2f m, %.1f %% of the prior out of everybody's sight",
-             view.planner.graph().nodes(), mission.planner.spacing_m, view.planner.graph().edges(),
-             view.planner.cells().count(), mission.planner.cell_m, 100 * view.planner.belief().unobservable_share));
+  say("graph", counted(view.planner.graph().nodes(), "node") + format(" %.2f m apart, ", mission.planner.spacing_m) +
+                   counted(view.planner.graph().edges(), "edge") + ", " +
+                   counted(view.planner.cells().count(), "cell") +
+                   format(" of %.2f m, %.1f %% of the prior out of everybody's sight", mission.planner.cell_m,
+                          100 * view.planner.belief().unobservable_share));
   for (std::size_t m = 0; m < mission.agents.size(); ++m) {
     if (view.planner.graph().nodes_reached_by(static_cast<int>(m)) == 1) {
       say("note", mission.agents[m].name + " reaches no other node of the graph from its start");
@@ -64,9 +65,9 @@ void show_progress(LiveLine& line, const PlanView& view, const planner::Progress
   if (!line.due(part, whole)) {
     return;
   }
-  std::string text = by_time
-                         ? format("%.1f of %.1f s, %d generations", time.elapsed_s, time.limit_s, progress.generation)
-                         : format("%d of %d generations", progress.generation, progress.generations);
+  std::string text =
+      by_time ? format("%.1f of %.1f s, ", time.elapsed_s, time.limit_s) + counted(progress.generation, "generation")
+              : format("%d of ", progress.generation) + counted(progress.generations, "generation");
   if (progress.has_plan) {
     const planner::PlanScore& best = progress.best;
     text += format(", ET %.1f s, ET_c %.1f s, unseen %.1f %%", best.expected_time_s, best.expected_time_continuous_s,
@@ -83,15 +84,20 @@ void show_paths(const PlanView& view, const planner::Plan& plan) {
   const auto& agents = view.inputs.file.mission.agents;
   for (std::size_t m = 0; m < agents.size(); ++m) {
     const planner::AgentPath& path = plan.paths[m];
-    say("", agents[m].name +
-                format(": %.1f m, %.0f s, %d waypoints, ends at ", path.length_m, path.duration_s,
-                       static_cast<int>(path.waypoints.size())) +
+    say("", agents[m].name + format(": %.1f m, %.0f s, ", path.length_m, path.duration_s) +
+                counted(static_cast<int>(path.waypoints.size()), "waypoint") + ", ends at " +
                 place_text(path.waypoints.back()));
   }
   if (!plan.score.complete) {
     say("note", format("the plans leave %.1f %% of the probability unsearched; a smaller spacing_m leaves less",
                        100 * plan.score.unseen_mass));
   }
+}
+
+void show_bound(const PlanView& view, const planner::PlanScore& score) {
+  // The bounds are of ET_c: with sub-priors not what a search minimises, and no measure of how well it did.
+  say("bound", bound_text(view, score) +
+                   (view.planner.belief().has_sub_priors ? "; a search with sub-priors minimises EST, not ET_c" : ""));
 }
 
 void show_score(const PlanView& view, const planner::PlanScore& score) {
@@ -107,7 +113,7 @@ void show_score(const PlanView& view, const planner::PlanScore& score) {
   say("unseen",
       format("%.2f %% of the observable probability, %s; %.2f %% of all is unobservable", 100 * score.unseen_mass,
              score.complete ? "complete" : "incomplete", 100 * view.planner.belief().unobservable_share));
-  say("bound", bound_text(view, score));
+  show_bound(view, score);
 }
 
 }  // namespace ivo::firmware

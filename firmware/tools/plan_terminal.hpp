@@ -17,6 +17,8 @@ struct SearchTime {
 void show_progress(LiveLine& line, const PlanView& view, const planner::Progress& progress, SearchTime time = {});
 /// Each agent's way, and what is left unseen.
 void show_paths(const PlanView& view, const planner::Plan& plan);
+/// The bounds, and how far above them ET_c is.
+void show_bound(const PlanView& view, const planner::PlanScore& score);
 /// All figures of a score, a line each: ET, ET_c, EST, unseen mass, bounds and gap.
 void show_score(const PlanView& view, const planner::PlanScore& score);
 

@@ -42,7 +42,7 @@ void RunTerminal::show_plan(const planner::Plan& plan) {
   line_.end();
   horizon_s_ = plan.score.horizon_s;
   say("plans", score_text(run_, plan.score));
-  say("bound", bound_text(run_, plan.score));
+  show_bound(run_, plan.score);
   show_paths(run_, plan);
 }
 

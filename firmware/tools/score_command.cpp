@@ -9,6 +9,7 @@
 #include "firmware/tools/plan_terminal.hpp"
 #include "firmware/tools/planner_object.hpp"
 #include "firmware/tools/preferred_share.hpp"
+#include "firmware/tools/result_files.hpp"
 #include "planner/search/path_score.hpp"
 
 namespace ivo::firmware {
@@ -49,6 +50,30 @@ void show_agents(const std::vector<ScoredAgent>& agents) {
   }
 }
 
+/// As the file has it, to its last waypoint.
+void fill(planner::Plan& plan, const Ways& ways, const planner::PlanScore& score) {
+  plan.score = score;
+  plan.paths.resize(ways.size());
+  for (std::size_t m = 0; m < ways.size(); ++m) {
+    plan.paths[m].waypoints.clear();
+    for (const Point p : ways[m]) {
+      IVO_CONTRACT(plan.paths[m].waypoints.push_back(p));  // check_paths refuses longer ways
+    }
+  }
+}
+
+bool keep_results(const ScoreOptions& options, const PlanView& view, const ScoreFile& file, const Ways& ways,
+                  const planner::PlanScore& score) {
+  bool kept = options.json.empty() || keep(options.json, score_json(file));
+  if (!options.out.empty()) {
+    static planner::Plan plan;  // large
+    fill(plan, ways, score);
+    kept = keep(options.out + "/score.json", score_json(file)) && kept;
+    kept = keep(options.out + "/search.png", picture_png(plan_picture(view, plan, file.plan))) && kept;
+  }
+  return kept;
+}
+
 }  // namespace
 
 int score(const ScoreOptions& options) {
@@ -71,6 +96,12 @@ int score(const ScoreOptions& options) {
     return refuse(checked.error());
   }
   const Ways& ways = checked.value();
+  const Result<void> json = options.json.empty() ? Result<void>() : check_writable(options.json);
+  const Result<void> out =
+      options.out.empty() ? Result<void>() : open_folder(options.out, {"score.json", "search.png"});
+  if (!json || !out) {
+    return refuse(json ? out.error() : json.error());
+  }
 
   std::vector<planner::WaypointPath> scored;
   for (std::size_t m = 0; m < ways.size(); ++m) {
@@ -96,14 +127,7 @@ int score(const ScoreOptions& options) {
   say("plan", options.plan);
   show_score(view, score);
   show_agents(file.agents);
-  if (!options.json.empty()) {
-    if (const Result<void> written = write_file(options.json, score_json(file)); !written) {
-      complain(written.error());
-      return exit_status::kFaultOrStop;
-    }
-    say("wrote", options.json);
-  }
-  return exit_status::kEnded;
+  return keep_results(options, view, file, ways, score) ? exit_status::kEnded : exit_status::kFaultOrStop;
 }
 
 }  // namespace ivo::firmware

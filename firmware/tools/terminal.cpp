@@ -28,6 +28,8 @@ void say(const char* label, const std::string& text) {
   (void)std::fflush(stdout);
 }
 
+std::string counted(int count, const char* thing) { return format("%d %s%s", count, thing, count == 1 ? "" : "s"); }
+
 std::string place_text(Point p) { return format("(%.1f, %.1f)", p.x_m, p.y_m); }
 
 std::string bar(int part, int whole) {

@@ -24,6 +24,8 @@ template <class... Args>
 [[nodiscard]] std::string labelled(const char* label, const std::string& text);
 void say(const char* label, const std::string& text);
 
+/// "1 generation", "2 generations"
+[[nodiscard]] std::string counted(int count, const char* thing);
 /// "(1.5, 2.0)"
 [[nodiscard]] std::string place_text(Point p);
 /// "[######..................]"

@@ -25,7 +25,9 @@ struct Belief {
   Mass alike{};                                   ///< p of every cell with mass when all have the same, else 0
   std::array<Cell, limits::kCells> mass_cells{};  ///< the cells with mass, ascending
   int mass_cell_count = 0;
-  int sub_prior_steps = 0;          ///< K of EST: steps of 1 s over which every plan of the mission is summed
+  /// K of EST: steps of 1 s over which every plan of the mission is summed. What a longer plan finds after them counts
+  /// as not found.
+  int sub_prior_steps = 0;
   double unobservable_share = 0.0;  ///< of the whole prior; enters nothing else
   SeenMap without_mass;             ///< cells without mass, as if seen: where a search begins
 

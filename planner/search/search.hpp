@@ -48,7 +48,9 @@ class Search {
   [[nodiscard]] int last_slice_units() const noexcept { return last_slice_units_; }
   [[nodiscard]] Progress progress() const noexcept;
 
-  /// The best plan so far: complete plans by cost (EST with sub-priors, else ET in the paper's profile and ET_c in the
+  /// The best plan so far; there is one from the first generation on, complete or not. No horizon cuts a plan short: it
+  /// ends when little enough is unseen, when nobody can get to more, or when every path is full, and is incomplete in
+  /// the last two cases. Complete plans by cost (EST with sub-priors, else ET in the paper's profile and ET_c in the
   /// fast one), before incomplete ones by unseen mass. Cost: the copy of its waypoints.
   void best_plan(Plan& plan) const noexcept;
 

@@ -1,6 +1,8 @@
-// ivo-naive [--generations N] [--ants N] [--json FILE]: how much faster the planner's paper profile is than a planner
-// without tables (tests/support/naive_planner.hpp): the same decisions on M1/U at 3.5 m and 0.25 m cells, in one run,
-// by processor time, what is built before the search apart. Ends with 1 when the two plans differ, 2 on wrong input.
+// ivo-naive [--map m1|m2] [--generations N] [--ants N] [--json FILE]: how much faster the planner's paper profile is
+// than a planner without tables (tests/support/naive_planner.hpp): the same decisions on M1/U or M2/U at 3.5 m and
+// 0.25 m cells, in one run, by processor time, what is built before the search apart. FILE - is standard output, and
+// then nothing else is written there: `ivo bench speed` reads it so. Ends with 1 when the two plans differ, 2 on wrong
+// input.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -14,6 +16,7 @@
 #include "firmware/tools/bench/bench_report.hpp"
 #include "firmware/tools/bench/trial.hpp"
 #include "firmware/tools/exit_status.hpp"
+#include "firmware/tools/terminal.hpp"
 #include "tests/support/naive_planner.hpp"
 
 namespace {
@@ -21,6 +24,7 @@ namespace {
 using namespace ivo;
 
 struct Options {
+  firmware::bench::PaperMap map = firmware::bench::PaperMap::kM1;
   int generations = 4;  // what the planner builds at first use is a large part of fewer
   int ants = 10;
   std::string json;
@@ -35,6 +39,13 @@ bool read(int argc, char** argv, Options& options) {
     const std::string_view value = argv[i + 1];
     if (name == "--json") {
       options.json = value;
+      continue;
+    }
+    if (name == "--map") {
+      if (value != "m1" && value != "m2") {
+        return false;
+      }
+      options.map = value == "m1" ? firmware::bench::PaperMap::kM1 : firmware::bench::PaperMap::kM2;
       continue;
     }
     int* const number = name == "--generations" ? &options.generations : name == "--ants" ? &options.ants : nullptr;
@@ -67,10 +78,15 @@ int main(int argc, char** argv) {
   using namespace firmware;
   Options options;
   if (!read(argc, argv, options)) {
-    (void)std::fprintf(stderr, "ivo-naive: expected [--generations N] [--ants N] [--json FILE], N from 1 to 10000\n");
+    (void)std::fprintf(
+        stderr, "ivo-naive: expected [--map m1|m2] [--generations N] [--ants N] [--json FILE], N from 1 to 10000\n");
     return exit_status::kWrongInput;
   }
-  const Result<bench::Scene> scene = bench::paper_scene(bench::PaperMap::kM1, bench::PaperPrior::kUniform, 3.5);
+  const Result<bench::Scene> scene = bench::paper_scene(options.map, bench::PaperPrior::kUniform, 3.5);
+  if (!scene) {
+    (void)std::fprintf(stderr, "ivo-naive: %s\n", scene.error().message.c_str());
+    return exit_status::kWrongInput;
+  }
   planner::SearchProblem problem = scene.value().problem;
   problem.colony.profile = planner::Profile::kPaper;
   problem.colony.generations = options.generations;
@@ -95,19 +111,20 @@ int main(int argc, char** argv) {
   const double median_s = planner_s[kRuns / 2];
   const double worst_s = *std::max_element(planner_s.begin(), planner_s.end());
   bench::Sheet sheet("naive");
-  const std::string name = "M1/U, 3.5 m, " + std::to_string(options.generations) + " generations of " +
-                           std::to_string(options.ants) + " ants";
+  const std::string name = scene.value().name + ", 3.5 m, " + counted(options.generations, "generation") + " of " +
+                           counted(options.ants, "ant");
   sheet.add(name, "planner, an ant", 1e6 * median_s / ants, "us");
   sheet.add(name, "planner, an ant, worst", 1e6 * worst_s / ants, "us");
   sheet.add(name, "naive planner, an ant", 1e6 * naive_s / ants, "us");
   sheet.add(name, "times as fast", naive_s / median_s, "", bench::Target{100.0, bench::Sense::kAtLeast});
   sheet.add(name, "times as fast, worst", naive_s / worst_s, "");
-  (void)std::printf("%s", bench::table_of(sheet.records()).c_str());
+  const bool for_programs = options.json == "-";
+  (void)std::printf("%s", (for_programs ? bench::json_of(sheet.records()) : bench::table_of(sheet.records())).c_str());
   if (!same(*plan, naive)) {
     (void)std::fprintf(stderr, "ivo-naive: the two planners' plans differ; expected the same from the same seed\n");
     return exit_status::kFaultOrStop;
   }
-  if (!options.json.empty() && !write_file(options.json, bench::json_of(sheet.records()))) {
+  if (!options.json.empty() && !for_programs && !write_file(options.json, bench::json_of(sheet.records()))) {
     (void)std::fprintf(stderr, "ivo-naive: %s: not written\n", options.json.c_str());
     return exit_status::kFaultOrStop;
   }

@@ -2,11 +2,23 @@
 """`ivo bench` from outside, shortened: names, tables, records. Figures are not judged here: a slow machine fails no test."""
 
 import os
+import shutil
+import signal
+import subprocess
 import tempfile
+import time
 import unittest
 
 from json_schema import schema_faults
-from mission_files import ivo, read_json
+from mission_files import IVO, ivo, read_json
+
+
+def running(process):
+    try:
+        with open(f"/proc/{process}/stat", encoding="utf-8") as file:
+            return file.read().rsplit(")", 1)[1].split()[0] != "Z"
+    except FileNotFoundError:
+        return False
 
 
 class Bench(unittest.TestCase):
@@ -37,6 +49,10 @@ class Bench(unittest.TestCase):
         done = ivo("bench", "fastest")
         self.assertEqual(done.returncode, 2)
         self.assertRegex(done.stderr, r'^ivo: no bench is called "fastest"; expected table1, speed, quality, compare, scale, all\n$')
+        for path in ("/nowhere/records.json", os.path.dirname(self.json)):  # at once, not after the work
+            done = ivo("bench", "all", "--json", path)
+            self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1))
+            self.assertIn(f"ivo: {path}: cannot be written: ", done.stderr)
         done = ivo("bench", "scale", "--data", "/nowhere")
         self.assertEqual(done.returncode, 2)
         self.assertEqual(done.stderr.count("\n"), 1)
@@ -60,6 +76,43 @@ class Bench(unittest.TestCase):
         for case in ("M1/U", "M2/U"):
             for figure in ("search", "search, worst", "graph and tables", "paper's"):
                 self.assertIn((case, figure), figures)
+
+    def test_speed_stands_beside_the_naive_planner(self):
+        records, _ = self.bench("speed")
+        for scene in ("M1/U", "M2/U"):
+            case = {record["figure"]: record for record in records if record["case"] == f"{scene}, beside the naive planner"}
+            self.assertGreater(case["times as fast as the naive planner"]["value"], 1)
+            self.assertIn("naive planner, an ant", case)
+
+    def test_speed_without_the_naive_planner_says_so(self):
+        alone = os.path.join(os.path.dirname(self.json), "ivo")
+        shutil.copy(IVO, alone)
+        done = subprocess.run([alone, "bench", "speed", "--quick"], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("M1/U, beside the naive planner: skipped: no ivo-naive beside this program\n", done.stdout)
+
+    def test_an_interrupt_leaves_no_naive_planner_behind(self):
+        folder = os.path.dirname(self.json)
+        shutil.copy(IVO, folder)
+        began = os.path.join(folder, "began")
+        naive = os.path.join(folder, "ivo-naive")
+        with open(naive, "w", encoding="utf-8") as file:
+            file.write(f"#!/bin/sh\necho $$ >{began}.part\nmv {began}.part {began}\nexec sleep 600\n")
+        os.chmod(naive, 0o755)
+        process = subprocess.Popen([os.path.join(folder, "ivo"), "bench", "speed", "--quick"], stdout=subprocess.DEVNULL)
+        self.wait_for(lambda: os.path.exists(began))
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(), -signal.SIGINT)
+        with open(began, encoding="utf-8") as file:
+            child = int(file.read())
+        self.wait_for(lambda: not running(child))
+
+    def wait_for(self, condition):
+        for _ in range(600):
+            if condition():
+                return
+            time.sleep(0.1)
+        self.fail("waited for a minute")
 
     def test_quality_says_how_many_plans_are_complete(self):
         records, _ = self.bench("quality")

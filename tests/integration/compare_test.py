@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """What the planner is compared with, from outside, shortened: `ivo bench compare` and ivo-naive. Figures are not judged here."""
 
+import json
 import os
 import subprocess
 import tempfile
@@ -45,8 +46,13 @@ class Compare(unittest.TestCase):
         self.assertEqual(figures["times as fast"]["target"], 100)
         self.assertIn("times as fast", done.stdout)
 
+    def test_the_naive_planner_makes_the_same_plan_among_walls_and_can_say_so_to_programs_alone(self):
+        done = self.naive("--map", "m2", "--generations", "1", "--ants", "2", "--json", "-")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual({record["case"] for record in json.loads(done.stdout)}, {"M2/U, 3.5 m, 1 generation of 2 ants"})
+
     def test_the_naive_planners_program_refuses_what_is_no_number_in_range(self):
-        for args in (("--ants",), ("--ants", "0"), ("--ants", "2x"), ("--bees", "2"), ("--generations", "100000")):
+        for args in (("--ants",), ("--ants", "0"), ("--ants", "2x"), ("--bees", "2"), ("--map", "m3"), ("--generations", "100000")):
             done = self.naive(*args)
             self.assertEqual(done.returncode, 2, args)
             self.assertEqual(done.stderr.count("\n"), 1)

@@ -6,6 +6,7 @@ import resource
 import signal
 import subprocess
 import tempfile
+import time
 import unittest
 
 from json_schema import schema_faults
@@ -13,6 +14,12 @@ from mission_files import COURTYARD, IVO, MISSION, ivo, read_json, write_mission
 from terminals import open_terminal
 
 PREFERRED = MISSION + "preferred = [{ rectangle_m = [6.0, 6.0, 12.0, 12.0] }]\n"
+
+
+def handles(process, number):
+    with open(f"/proc/{process}/status", encoding="utf-8") as file:
+        caught = next(line for line in file if line.startswith("SigCgt:"))
+    return int(caught.split()[1], 16) >> (number - 1) & 1 == 1
 
 
 class Plan(unittest.TestCase):
@@ -200,11 +207,42 @@ class Plan(unittest.TestCase):
         self.assertRegex(done.stderr, r"^ivo: .*mission.toml:15: agent\[0\].start_m: .*outside the map.*\n$")
         self.assertFalse(os.path.exists(self.out))
 
-    def test_a_plan_that_cannot_be_kept_is_a_failure(self):
+    def test_a_folder_that_cannot_hold_the_plan_is_refused_before_the_search(self):
         os.makedirs(os.path.join(self.out, "plan.json", "in the way"))
-        done = ivo("plan", write_mission(self.folder), "--out", self.out)
-        self.assertEqual(done.returncode, 1)
-        self.assertIn("plan.json", done.stderr)
+        done = ivo("plan", write_mission(self.folder), "--iterations", "1000000000", "--out", self.out)
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertEqual(done.stderr, f"ivo: {self.out}/plan.json: cannot be written: it is a folder; expected a file\n")
+        self.assertEqual(os.listdir(self.out), ["plan.json"])
+        file = os.path.join(self.folder, "file")
+        with open(file, "wb"):
+            pass
+        for out in (file, os.path.join(file, "below"), "/proc/nobody"):
+            done = ivo("plan", os.path.join(self.folder, "mission.toml"), "--out", out)
+            self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), done.stderr)
+            self.assertIn(f"ivo: {out}", done.stderr)
+
+    def test_ctrl_c_while_graph_and_tables_are_built_ends_at_once_and_leaves_nothing(self):
+        # 192 x 192 m in cells of 0.25 m: seconds of building.
+        mission = write_mission(self.folder, MISSION.replace("spacing_m = 3.0", "spacing_m = 4.0"),
+                                map_text='image = "map.png"\nresolution_m = 4.0\n')
+        process = subprocess.Popen([IVO, "plan", mission, "--out", self.out], stdin=subprocess.DEVNULL,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        while not handles(process.pid, signal.SIGINT):
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.communicate(), ("", "ivo: stopped before there was a plan; nothing was written\n"))
+        self.assertEqual(process.returncode, 1)
+        self.assertFalse(os.path.exists(self.out))
+
+    def test_one_of_a_thing_is_spoken_of_as_one(self):
+        said = self.plan("--iterations", "1")
+        self.assertIn("1 of 1 generation,", said)
+        self.assertRegex(said, r"search \S+ s, 1 generation\n")
+
+    def test_with_sub_priors_the_bound_says_what_was_minimised(self):
+        words = "a search with sub-priors minimises EST, not ET_c"
+        self.assertNotIn(words, self.plan())
+        self.assertRegex(self.plan(mission=PREFERRED), rf"(?m)^bound .*{words}$")
 
 
 if __name__ == "__main__":

@@ -63,6 +63,26 @@ class Score(unittest.TestCase):
             self.assertEqual(score["agents"][0]["preferred_share"], None)
             self.assertEqual(score["agents"][1]["preferred_share"] is None, i == 0)
 
+    def test_a_folder_gets_the_score_and_a_picture(self):
+        out = os.path.join(self.folder, "out")
+        score = self.score([HERE, THERE], "--out", out)
+        self.assertEqual(sorted(os.listdir(out)), ["score.json", "search.png"])
+        self.assertEqual(read_json(out, "score.json"), score)
+        with open(os.path.join(out, "search.png"), "rb") as file:
+            self.assertTrue(file.read().startswith(b"\x89PNG"))
+
+    def test_what_cannot_be_written_is_refused(self):
+        plan = self.put([HERE, THERE])
+        for option, path in (("--json", "/nowhere/score.json"), ("--json", self.folder), ("--json", self.pipe()), ("--out", plan), ("--out", "/proc/nobody")):
+            done = ivo("score", self.mission, plan, option, path)
+            self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), done.stderr)
+            self.assertIn(f"ivo: {path}: cannot be ", done.stderr)
+
+    def pipe(self):
+        path = os.path.join(self.folder, "pipe")
+        os.mkfifo(path)
+        return path
+
     def test_names_and_waypoints_are_enough_and_nothing_else_is_trusted(self):
         bare = self.score([HERE, THERE])
         lying = self.score([dict(HERE, speed_mps=1e9, length_m=-1, kind="dog"), dict(THERE, sight_radius_m="x")])
@@ -134,16 +154,25 @@ class Score(unittest.TestCase):
         self.score([dict(HERE, waypoints_m=[[1.5, 1.505], [1.5, 9.0]]), THERE])
 
     def test_what_is_no_plan_is_refused(self):
-        self.assertEqual(self.refused("nothing"), "ivo: foreign.json: not JSON; expected a plan\n")
-        self.assertEqual(self.refused('{"agents": [{"waypoints_m": [[1.5, NaN]]}]}'), "ivo: foreign.json: not JSON; expected a plan\n")
+        self.assertEqual(self.refused("nothing"), "ivo: foreign.json:1: not JSON: \"nothing\" cannot stand here; expected a plan\n")
+        self.assertEqual(self.refused('{"agents": [\n{"waypoints_m": [[1.5, NaN]]}]}'),
+                         "ivo: foreign.json:2: not JSON: \"NaN]]}]}\" cannot stand here; expected a plan\n")
+        self.assertEqual(self.refused('{"agents": [\n{"waypoints_m": [[1.5'), "ivo: foreign.json:2: not JSON: ends too early; expected a plan\n")
+        self.assertEqual(self.refused(""), "ivo: foreign.json:1: not JSON: ends too early; expected a plan\n")
         self.assertEqual(self.refused('{"agents": [{"waypoints_m": [[1.5, 1e999]]}]}'),
                          "ivo: foreign.json: holds a number beyond all bounds; expected finite numbers\n")
         self.assertEqual(self.refused([dict(HERE, waypoints_m=[])]),
-                         "ivo: foreign.json: agents[0].waypoints_m: is no list; expected a list of at least one\n")
+                         "ivo: foreign.json: agents[0].waypoints_m: is empty; expected a list of at least one\n")
         done = ivo("score", self.mission, os.path.join(self.folder, "nowhere.json"))
         self.assertEqual(done.returncode, 2)
         self.assertEqual(done.stderr.replace(self.folder + "/", ""),
                          "ivo: nowhere.json: cannot be read: No such file or directory; expected a plan\n")
+
+    def test_a_plan_of_another_mission_is_refused(self):
+        other = write_mission(self.folder, MISSION.replace("[1.5, 1.5]", "[2.5, 1.5]"), ROWS)
+        done = ivo("score", other, self.put([HERE, THERE]), "--json", self.json)
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertIn("agents[0].waypoints_m[0]: (1.5, 1.5) is not where IVO starts; expected (2.5, 1.5)", done.stderr)
 
     def test_more_waypoints_than_fit_are_refused(self):
         many = [[1.5, 1.5 + (i % 2)] for i in range(100_000)]

@@ -5,7 +5,7 @@ import os
 import tempfile
 import unittest
 
-from mission_files import BUILDING, MISSION, ivo, plaza, write_mission
+from mission_files import BUILDING, MISSION, PAVEMENT, ivo, plaza, write_mission
 
 WALLED_IN = plaza()
 for column in range(48):
@@ -60,6 +60,9 @@ CASES = {
     "an object in a wall": (MISSION.replace('"drawn"', "[5.0, 9.0]"), NORTH_WALL, ["mission.toml:4: object", "building"]),
     "an object outside": (MISSION.replace('"drawn"', "[50.0, 1.0]"), None, ["mission.toml:4: object", "outside the map"]),
     "too many cells": (MISSION.replace("[planner]", "[planner]\ncell_m = 0.01"), None, ["planner.cell_m: the map has too many cells: 1440000, more than this build's 1048576; expected a larger cell_m; the planner profile that fits is desktop"]),
+    "a narrow map that is too long": (MISSION.replace("[1.5, 1.5]", "[0.5, 1.5]").replace("[10.5, 1.5]", "[0.5, 5.0]"),
+                                      [[PAVEMENT] * 4] * 40_000,  # a row of 4 takes the room of 32
+                                      ["planner.cell_m: the map has too many cells: 1280000, more than this build's 1048576"]),
     "two robots": (MISSION.replace('kind = "person"', 'kind = "robot"\nrobot = "x.toml"'), None, ["mission.toml:", "robot"]),
     "a robot file that is not there": (MISSION.replace("ivo.toml", "nobody.toml"), None, ["mission.toml:14: agent[0].robot:", "nobody.toml"]),
 }
@@ -96,11 +99,28 @@ class WrongInput(unittest.TestCase):
         self.refused(["run", mission, "--can", ""], ["--can", "empty"])
         self.refused(["run", mission, "--speed", "fast"], ["--speed", "fast", "max"])
 
+    def test_an_unknown_command_is_refused_with_those_that_there_are(self):
+        done = ivo("bogus")
+        self.assertEqual((done.returncode, done.stderr),
+                         (2, 'ivo: no command is called "bogus"; expected run, plan, score, bench\n'))
+
     def test_a_command_line_that_makes_no_sense_is_refused(self):
-        for args in ([], ["walk"], ["run"], ["run", "x.toml", "--bogus"]):
+        for args, says in (
+            ([], "no command; expected run, plan, score, bench"),
+            (["--version"], 'no command is called "--version"; expected run, plan, score, bench'),
+            (["run"], "MISSION is required"),
+            (["run", ""], "MISSION: is empty; expected a name"),
+            (["score", "x.toml", ""], "PLAN: is empty; expected a name"),
+            (["run", "x.toml", "--bogus"], "not expected: --bogus"),
+            (["plan", "x.toml", "--seed"], "--seed: has no value; expected one"),
+            (["bench", "speed", "--json"], "--json: has no value; expected one"),
+            (["plan", "x.toml", "--seed", "1", "--seed", "2"], "--seed: is given twice; expected once"),
+        ):
             done = ivo(*args)
             self.assertEqual(done.returncode, 2, args)
             self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+            self.assertTrue(done.stderr.startswith("ivo: "), done.stderr)
+            self.assertIn(says, done.stderr)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 #include "firmware/tools/bench/bench_command.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 
@@ -43,16 +44,21 @@ int run(const CommandOptions& options) {
     say("all", "these, one after the other");
     return exit_status::kEnded;
   }
-  std::vector<Record> records;
-  bool known = false;
-  for (const Bench& bench : benches()) {
-    if (options.name == bench.name || options.name == "all") {
-      known = true;
-      run_one(bench, options.bench, records);
+  const bool all = options.name == "all";
+  const auto named = [&](const Bench& bench) { return options.name == bench.name; };
+  if (!all && std::none_of(benches().begin(), benches().end(), named)) {
+    return refuse({"no bench is called \"" + options.name + "\"; expected " + names()});
+  }
+  if (!options.json.empty()) {  // now, and not after minutes of work
+    if (const Result<void> writable = check_writable(options.json); !writable) {
+      return refuse(writable.error());
     }
   }
-  if (!known) {
-    return refuse({"no bench is called \"" + options.name + "\"; expected " + names()});
+  std::vector<Record> records;
+  for (const Bench& bench : benches()) {
+    if (all || named(bench)) {
+      run_one(bench, options.bench, records);
+    }
   }
   if (!options.json.empty()) {
     if (const Result<void> written = write_file(options.json, json_of(records)); !written) {

@@ -164,7 +164,7 @@ void add(const std::string& name, const Comparison& comparison, std::size_t time
     }
     if (column.completed_greedily > 0) {
       sheet.add(name, column.planner + ", completed greedily", column.completed_greedily,
-                format("of %d plans", column.plans));
+                "of " + counted(column.plans, "plan"));
     }
     if (column.longest_s > 1.2 * time_s) {
       sheet.add(name, column.planner + ", took", column.longest_s, "s");

@@ -105,7 +105,7 @@ void grow(planner::Planner& planner, planner::Profile profile, const Options& op
 void add_agents(planner::Planner& planner, const Options& options, Sheet& sheet) {
   const int side = options.quick ? 10 : 32;
   for (const int agents : {1, 2, 4, 8}) {
-    const std::string name = format("fast, %d nodes, %d agent%s", side * side, agents, agents == 1 ? "" : "s");
+    const std::string name = format("fast, %d nodes, ", side * side) + counted(agents, "agent");
     if (agents > limits::kAgents) {
       sheet.skip(
           name, format("more agents than the %d of this build's %s capacity", limits::kAgents, limits::Planner::kName));

@@ -123,7 +123,7 @@ TEST(PlanFile, RefusesWhatIsNoPlan) {
   EXPECT_EQ(message_of(read_plan(folder.path("p.json"))),
             folder.path("p.json") + ": cannot be read: No such file or directory; expected a plan");
   EXPECT_EQ(message_of(read_plan(folder.put("p.json", "{\"format\": 1"))),
-            folder.path("p.json") + ": not JSON; expected a plan");
+            folder.path("p.json") + ":1: not JSON: ends too early; expected a plan");
   EXPECT_EQ(message_of(read_plan(folder.put("p.json", "[1]"))),
             folder.path("p.json") + ": is no object; expected what plan writes");
   EXPECT_EQ(complaint("\"format\": 2", "\"format\": 1"),
@@ -151,7 +151,7 @@ TEST(PlanFile, RefusesAgentsAndWaypointsThatAreNone) {
   EXPECT_EQ(complaint("\"kind\":\"person\"", "\"kind\":\"dog\""),
             "p.json: agents[1].kind: \"dog\" is unknown; expected \"robot\" or \"person\"");
   EXPECT_EQ(complaint("[[39.25,1.75]]", "[]"),
-            "p.json: agents[1].waypoints_m: is no list; expected a list of at least one");
+            "p.json: agents[1].waypoints_m: is empty; expected a list of at least one");
   EXPECT_EQ(complaint("[1.75,1.75],", "[1.75],"), "p.json: agents[0].waypoints_m[0]: is no point; expected [x, y]");
   EXPECT_EQ(complaint("[1.75,1.75],", "[1.75,null],"),
             "p.json: agents[0].waypoints_m[0]: this will not do; expected a number, -1000000 to 1000000");
@@ -188,7 +188,8 @@ TEST(PlanFile, RefusesPathsThatAreNone) {
             "p.json: agents[0].name: is no text; expected text");
   EXPECT_EQ(paths_complaint(R"({"agents": [{"waypoints_m": [[1, 2], [1, null]]}]})"),
             "p.json: agents[0].waypoints_m[1]: this will not do; expected a number, -1000000 to 1000000");
-  EXPECT_EQ(paths_complaint(R"({"agents": [{"waypoints_m": [[1, NaN]]}]})"), "p.json: not JSON; expected a plan");
+  EXPECT_EQ(paths_complaint(R"({"agents": [{"waypoints_m": [[1, NaN]]}]})"),
+            "p.json:1: not JSON: \"NaN]]}]}\" cannot stand here; expected a plan");
   EXPECT_EQ(paths_complaint(R"({"agents": [{"waypoints_m": [[1, 1e999]]}]})"),
             "p.json: holds a number beyond all bounds; expected finite numbers");
   EXPECT_EQ(paths_complaint(std::string(100'000, '[')), "p.json: nested deeper than 64 levels; expected a plan");

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <csignal>
 #include <filesystem>
@@ -40,11 +41,34 @@ TEST(TextFile, RefusesToWriteIntoAFolderThatIsNotThere) {
             folder.path("none/a.txt") + ": cannot be written: No such file or directory");
 }
 
-TEST(TextFile, LeavesNothingBehindWhenTheRenameFails) {
+TEST(TextFile, KnowsBeforehandWhatCannotBeWritten) {
+  const ScratchFolder folder;
+  ASSERT_TRUE(make_folder(folder.path("taken")).ok());
+  ASSERT_TRUE(write_file(folder.path("a.txt"), "old").ok());
+  EXPECT_TRUE(check_writable(folder.path("a.txt")).ok());
+  EXPECT_TRUE(check_writable(folder.path("b.txt")).ok());
+  EXPECT_EQ(check_writable(folder.path("taken")).error().message,
+            folder.path("taken") + ": cannot be written: it is a folder; expected a file");
+  EXPECT_EQ(check_writable(folder.path("none/a.txt")).error().message,
+            folder.path("none/a.txt") + ": cannot be written: No such file or directory");
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.txt", "taken"}));
+  EXPECT_EQ(read_file(folder.path("a.txt")).value(), "old");
+}
+
+TEST(TextFile, LeavesAloneWhatIsNoFile) {
+  const ScratchFolder folder;
+  ASSERT_EQ(mkfifo(folder.path("pipe").c_str(), 0600), 0);
+  const std::string message = folder.path("pipe") + ": cannot be written: it is a pipe or a device; expected a file";
+  EXPECT_EQ(check_writable(folder.path("pipe")).error().message, message);
+  EXPECT_EQ(write_file(folder.path("pipe"), "x").error().message, message);
+  EXPECT_TRUE(std::filesystem::is_fifo(folder.path("pipe")));
+}
+
+TEST(TextFile, LeavesNothingBehindWhereAFolderIs) {
   const ScratchFolder folder;
   ASSERT_TRUE(make_folder(folder.path("taken/inner")).ok());
   EXPECT_EQ(write_file(folder.path("taken"), "x").error().message,
-            folder.path("taken") + ": cannot be written: Is a directory");
+            folder.path("taken") + ": cannot be written: it is a folder; expected a file");
   EXPECT_EQ(folder.names(), std::vector<std::string>{"taken"});
 }
 

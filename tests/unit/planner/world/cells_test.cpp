@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "planner/world/seen_map.hpp"
 #include "tests/support/drawn_map.hpp"
 
 namespace ivo::planner {
@@ -145,6 +146,16 @@ TEST(Cells, RefuseMoreThanTheirCapacityWithBothNumbers) {
   const Refusal refusal = cells.build(DrawnMap(40.0, 40.0, 0.5).view(), 0.02);
   EXPECT_EQ(refusal.code, RefusalCode::kTooManyCells);
   EXPECT_EQ(refusal.value, 4'000'000.0);
+  EXPECT_EQ(refusal.limit, limits::kCells);
+}
+
+TEST(Cells, RefuseANarrowMapByTheRoomThatItsRowsTake) {
+  static Cells cells;
+  const int rows = limits::kCells / 60 + 64;  // a column each: far fewer cells than there is room for
+  ASSERT_FALSE(SeenMap::fits(1, rows * 2));
+  const Refusal refusal = cells.build(DrawnMap(0.5, rows, 0.5).view(), 0.5);
+  EXPECT_EQ(refusal.code, RefusalCode::kTooManyCells);
+  EXPECT_EQ(refusal.value, 2.0 * rows * 4 * SeenMap::stride_of(1));
   EXPECT_EQ(refusal.limit, limits::kCells);
 }
 
