@@ -15,15 +15,21 @@ void ExpectedTime::add(const Belief& belief, const FirstSightings& sightings, in
   if (belief.has_sub_priors) {
     add_sub_priors(belief, sightings, first, count);
   }
-  // In registers.
+  // In registers, and on the stack, where no other array can be taken for them.
+  auto path_end_s = path_end_s_;
+  const auto extend_path = [&](int agent, Seconds to_s) {
+    if (to_s > path_end_s[index(agent)]) [[unlikely]] {  // a branch: stores would wait for one another
+      path_end_s[index(agent)] = to_s;
+    }
+  };
   Mass seen_mass = seen_mass_;
   MassTime mass_seconds = mass_seconds_;
   Mass mass_steps = mass_steps_;
   for (const Cell c : belief.cells_with_mass().subspan(index(first), index(count))) {
-    if (!sightings.seen(c)) {
+    const Sighting s = sightings.of(c);
+    if (!FirstSightings::seen(s)) {
       continue;
     }
-    const Sighting& s = sightings.of(c);
     const Mass p = belief.mass[index(c)];
     seen_mass += p;
     mass_seconds += mass_time(p, s.time_s);
@@ -36,6 +42,7 @@ void ExpectedTime::add(const Belief& belief, const FirstSightings& sightings, in
   seen_mass_ = seen_mass;
   mass_seconds_ = mass_seconds;
   mass_steps_ = mass_steps;
+  path_end_s_ = path_end_s;
 }
 
 void ExpectedTime::add_sub_priors(const Belief& belief, const FirstSightings& sightings, int first,

@@ -40,12 +40,6 @@ class ExpectedTime {
  private:
   void add_sub_priors(const Belief& belief, const FirstSightings& sightings, int first, int count) noexcept;
   [[nodiscard]] Seconds horizon_s() const noexcept;
-  void extend_path(int agent, Seconds to_s) noexcept {
-    Seconds& end_s = path_end_s_[index(agent)];
-    if (to_s > end_s) {
-      end_s = to_s;
-    }
-  }
 
   Mass whole_ = Mass(1);
   Mass seen_mass_{};

@@ -43,7 +43,8 @@ class FirstSightings {
   void clear(int first, int count) noexcept { std::fill_n(sightings_.begin() + first, count, kUnseen); }
   void clear(int cells) noexcept { clear(0, cells); }
 
-  [[nodiscard]] bool seen(Cell c) const noexcept { return of(c).step != kNever; }
+  [[nodiscard]] static bool seen(const Sighting& sighting) noexcept { return sighting.step != kNever; }
+  [[nodiscard]] bool seen(Cell c) const noexcept { return seen(of(c)); }
   /// Of a cell that was seen.
   [[nodiscard]] const Sighting& of(Cell c) const noexcept { return sightings_[index(c)]; }
   /// When the credited agent first saw it, in the same step.
