@@ -8,6 +8,24 @@
 #include "planner/search/work.hpp"
 
 namespace ivo::planner {
+namespace {
+
+// The draw that takes the candidate of the greatest weight, the first of several.
+Weight before_largest_step(std::span<const Weight> sums) noexcept {
+  Weight before{};
+  Weight largest{};
+  Weight chosen{};
+  for (const Weight sum : sums) {
+    if (sum - before > largest) {
+      largest = sum - before;
+      chosen = before;
+    }
+    before = sum;
+  }
+  return chosen;
+}
+
+}  // namespace
 
 void Ant::start(const AntParameters& parameters, Heuristic heuristic, int beta) noexcept {
   parameters_ = parameters;
@@ -88,7 +106,7 @@ int Ant::choose_agent(Rng& rng) noexcept {
     }
   }
   std::size_t chosen = earliest;
-  if (left.size() > 1 && rng.unit() >= parameters_.shortest_first) {
+  if (left.size() > 1 && !parameters_.greedy && rng.unit() >= parameters_.shortest_first) {
     const auto other = static_cast<std::size_t>(rng.below(static_cast<int>(left.size()) - 1));
     chosen = other < earliest ? other : other + 1;
   }
@@ -149,8 +167,8 @@ int Ant::choose_node(Rng& rng) noexcept {
     phase_ = Phase::kJump;
     return work;
   }
-  const Weight draw = draw_below(sum, rng);
   const std::span<const Weight> sums(weights_.data(), candidates);
+  const Weight draw = parameters_.greedy ? before_largest_step(sums) : draw_below(sum, rng);
   // The first sum above the draw; an edge of no weight is never the first. Counted: a few dozen are quicker compared
   // than halved by guesses. A draw that rounds up to the sum takes the last.
   std::size_t chosen = 0;

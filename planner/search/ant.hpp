@@ -22,6 +22,7 @@ struct AntParameters {
   double max_unseen_mass = 0.014;  ///< done at or below
   /// When no unvisited node shows anything new, goes on to any node or along any edge that does: the nearest.
   bool completes = false;
+  bool greedy = false;  ///< always the agent whose path ends earliest, and the most attractive edge
 };
 
 class Ant {

@@ -45,7 +45,9 @@ int Colony::begin_generation() noexcept {
 
 int Colony::begin_ant() noexcept {
   phase_ = Phase::kAnt;
-  ant_.start(parameters_.ant, parameters_.heuristic, parameters_.beta);
+  AntParameters ant = parameters_.ant;
+  ant.greedy = parameters_.heuristic == Heuristic::kUnseen && generation_ == 0 && ants_done_ == 0;
+  ant_.start(ant, parameters_.heuristic, parameters_.beta);
   return 16 + work::bytes(world_.belief.without_mass.bytes());
 }
 

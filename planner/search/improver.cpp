@@ -11,7 +11,8 @@ namespace {
 constexpr int kFirstRound = 4000;     // proposals; each round is twice as long as the one before
 constexpr int kStretch = 12;          // waypoints that 2-opt reverses at most
 constexpr int kSpare = 4;             // legs kept beyond the end of a plan: what follows if it must see more
-constexpr int kHottest = 400;         // a plan's cost over the first temperature
+constexpr int kHottest = 400;         // a plan's cost over the first temperature, at least
+constexpr int kHottestLegs = 13;      // the same, of one leg's share: a change touches a leg or two
 constexpr double kLogCooling = -3.2;  // ln of the last temperature over the first
 constexpr int kScoreEvery = 250;      // proposals, or a twelfth of all, between two exact scores
 
@@ -658,7 +659,12 @@ void Improver::after_proposal() noexcept {
 int Improver::begin_round() noexcept {
   round_length_ = kFirstRound << std::min(round_, 16);
   round_done_ = 0;
-  hottest_ = judged_.cost / (round_ == 0 ? kHottest : 2 * kHottest);
+  int legs = 0;
+  for (int m = 0; m < agents_; ++m) {
+    legs += size_of(current_.legs[index(m)]);
+  }
+  const int parts = std::max(kHottest, kHottestLegs * legs);
+  hottest_ = judged_.cost / (round_ == 0 ? parts : 2 * parts);
   set_temperature();
   phase_ = Phase::kPropose;
   return 1;
