@@ -1,6 +1,7 @@
 #include "planner/search/ant.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <span>
 
 #include "planner/search/expected_time.hpp"
@@ -8,25 +9,6 @@
 #include "planner/search/work.hpp"
 
 namespace ivo::planner {
-namespace {
-
-// The draw that takes the candidate of the greatest weight, the first of several.
-Weight before_largest_step(std::span<const Weight> sums) noexcept {
-  Weight before{};
-  Weight largest{};
-  Weight chosen{};
-  for (const Weight sum : sums) {
-    if (sum - before > largest) {
-      largest = sum - before;
-      chosen = before;
-    }
-    before = sum;
-  }
-  return chosen;
-}
-
-}  // namespace
-
 void Ant::start(const AntParameters& parameters, Heuristic heuristic, int beta) noexcept {
   parameters_ = parameters;
   heuristic_ = heuristic;
@@ -42,6 +24,9 @@ void Ant::start(const AntParameters& parameters, Heuristic heuristic, int beta) 
   second_wind_ = false;
   if (heuristic_ == Heuristic::kMts) {
     sectors_.start();
+  }
+  if (parameters.looks_ahead > 0) {
+    lookahead_.open(parameters.looks_ahead, parameters.patience);
   }
   for (int m = 0; m < world_.graph.agents(); ++m) {
     at_[index(m)] = m;
@@ -63,6 +48,8 @@ int Ant::advance(Rng& rng, int rows) noexcept {
       return choose_agent(rng);
     case Phase::kWeigh:
       return weigh(rows);
+    case Phase::kLookAhead:
+      return look_ahead(rows);
     case Phase::kChooseNode:
       return choose_node(rng);
     case Phase::kJump:
@@ -106,14 +93,18 @@ int Ant::choose_agent(Rng& rng) noexcept {
     }
   }
   std::size_t chosen = earliest;
-  if (left.size() > 1 && !parameters_.greedy && rng.unit() >= parameters_.shortest_first) {
+  if (left.size() > 1 && parameters_.looks_ahead == 0 && rng.unit() >= parameters_.shortest_first) {
     const auto other = static_cast<std::size_t>(rng.below(static_cast<int>(left.size()) - 1));
     chosen = other < earliest ? other : other + 1;
   }
   agent_ = left[chosen];
   if (second_wind_) {
-    jump_.start(agent_, at_[index(agent_)]);
-    phase_ = Phase::kJump;
+    begin_jump();
+    return 1;
+  }
+  if (parameters_.looks_ahead > 0) {
+    lookahead_.begin(agent_, at_[index(agent_)]);
+    phase_ = Phase::kLookAhead;
     return 1;
   }
   phase_ = heuristic_ == Heuristic::kTsp ? Phase::kChooseNode : Phase::kWeigh;
@@ -133,6 +124,22 @@ int Ant::weigh(int rows) noexcept {
   if (sectors ? sectors_.done() : unseen_mass_.done()) {
     phase_ = Phase::kChooseNode;
   }
+  return work;
+}
+
+int Ant::look_ahead(int rows) noexcept {
+  const int work = lookahead_.advance(seen_, rows);
+  if (!lookahead_.done()) {
+    return work;
+  }
+  const Edge e = lookahead_.first_move();
+  if (e < 0) {
+    begin_jump();
+    return work;
+  }
+  route_.clear();
+  (void)route_.push_back(e);
+  begin_move();
   return work;
 }
 
@@ -163,12 +170,11 @@ int Ant::choose_node(Rng& rng) noexcept {
   }
   const int work = work::choice(end - first);
   if (sum <= Weight{}) {
-    jump_.start(agent_, here);
-    phase_ = Phase::kJump;
+    begin_jump();
     return work;
   }
   const std::span<const Weight> sums(weights_.data(), candidates);
-  const Weight draw = parameters_.greedy ? before_largest_step(sums) : draw_below(sum, rng);
+  const Weight draw = draw_below(sum, rng);
   // The first sum above the draw; an edge of no weight is never the first. Counted: a few dozen are quicker compared
   // than halved by guesses. A draw that rounds up to the sum takes the last.
   std::size_t chosen = 0;
@@ -194,6 +200,14 @@ bool Ant::shows_something_new(const SightView& view, int& work) const noexcept {
   return false;
 }
 
+void Ant::begin_jump() noexcept {
+  jump_.start(agent_, at_[index(agent_)]);
+  jump_to_ = -1;
+  jump_rate_ = Eta{};
+  jump_within_m_ = std::numeric_limits<double>::infinity();
+  phase_ = Phase::kJump;
+}
+
 // Without a candidate: to the nearest unvisited node that has unseen mass in sight, along the shortest path. The second
 // time round any node will do, and so will an edge that begins there.
 int Ant::jump() noexcept {
@@ -203,16 +217,42 @@ int Ant::jump() noexcept {
   if (n == JumpSearch::kCatchingUp) {
     return work;
   }
+  if (parameters_.looks_ahead > 0 && !second_wind_) {
+    return work + judge_jump(n);
+  }
   if (n < 0) {
     retire();
-    return work;
-  }
-  if ((second_wind_ || !visited(n)) && shows_something_new(world_.sight.from_node(agent_, n), work)) {
+  } else if ((second_wind_ || !visited(n)) && shows_something_new(world_.sight.from_node(agent_, n), work)) {
     go_to(n);
   } else if (second_wind_) {
     around_ = n;
     around_edge_ = world_.graph.first_edge(n);
     phase_ = Phase::kLookAround;
+  }
+  return work;
+}
+
+// Who looks ahead: of the nodes up to twice as far as the nearest that shows anything, to that which shows most for its
+// way.
+int Ant::judge_jump(Node n) noexcept {
+  if (n < 0 || jump_.distance_m(n) > jump_within_m_) {
+    if (jump_to_ >= 0) {
+      go_to(jump_to_);
+    } else {
+      retire();
+    }
+    return 1;
+  }
+  int work = 0;
+  const Mass mass = unseen_mass(world_, agent_, world_.sight.from_node(agent_, n), seen_, work);
+  if (mass > Mass{} && n != at_[index(agent_)]) {
+    const double way_m = jump_.distance_m(n);
+    const Eta rate = eta_of(mass, way_m);
+    jump_within_m_ = std::min(jump_within_m_, 2.0 * way_m);
+    if (jump_to_ < 0 || rate > jump_rate_) {
+      jump_to_ = n;
+      jump_rate_ = rate;
+    }
   }
   return work;
 }

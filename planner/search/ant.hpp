@@ -9,6 +9,7 @@
 #include "planner/numeric/index.hpp"
 #include "planner/numeric/rng.hpp"
 #include "planner/search/jump_search.hpp"
+#include "planner/search/lookahead.hpp"
 #include "planner/search/sector_heuristic.hpp"
 #include "planner/search/tour.hpp"
 #include "planner/search/trails.hpp"
@@ -22,13 +23,15 @@ struct AntParameters {
   double max_unseen_mass = 0.014;  ///< done at or below
   /// When no unvisited node shows anything new, goes on to any node or along any edge that does: the nearest.
   bool completes = false;
-  bool greedy = false;  ///< always the agent whose path ends earliest, and the most attractive edge
+  /// Above 0: no draws; always the agent whose path ends earliest, and the best of so many moves ahead (lookahead.hpp).
+  int looks_ahead = 0;
+  double patience = 4.0;  ///< of lookahead.hpp
 };
 
 class Ant {
  public:
   Ant(const World& world, const Trails& trails) noexcept
-      : world_(world), trails_(trails), sectors_(world), unseen_mass_(world) {}
+      : world_(world), trails_(trails), sectors_(world), unseen_mass_(world), lookahead_(world) {}
 
   /// Puts every agent on its start. `beta` is for eta_MTS; eta_TSP is in the trails. Cost: the seen map's bytes.
   void start(const AntParameters& parameters, Heuristic heuristic, int beta) noexcept;
@@ -53,7 +56,7 @@ class Ant {
   [[nodiscard]] CostInterval cost() const noexcept;
 
  private:
-  enum class Phase : std::uint8_t { kChooseAgent, kWeigh, kChooseNode, kJump, kLookAround, kMove, kDone };
+  enum class Phase : std::uint8_t { kChooseAgent, kWeigh, kLookAhead, kChooseNode, kJump, kLookAround, kMove, kDone };
   struct Move {
     Seconds end_s{};
     Mass shown{};  // what it showed first
@@ -62,8 +65,11 @@ class Ant {
   int choose_agent(Rng& rng) noexcept;
   int weigh(int rows) noexcept;
   [[nodiscard]] Visibility visibility(Edge e) const noexcept;
+  int look_ahead(int rows) noexcept;
   int choose_node(Rng& rng) noexcept;
   int jump() noexcept;
+  void begin_jump() noexcept;
+  int judge_jump(Node n) noexcept;
   int look_around(int rows) noexcept;
   void go_to(Node n) noexcept;
   int move(int rows) noexcept;
@@ -80,6 +86,7 @@ class Ant {
   const Trails& trails_;
   SectorHeuristic sectors_;
   UnseenHeuristic unseen_mass_;
+  Lookahead lookahead_;
   AntParameters parameters_;
   Heuristic heuristic_ = Heuristic::kTsp;
   int beta_ = 0;
@@ -107,6 +114,9 @@ class Ant {
   std::array<Edge, limits::kNodes + 1> candidates_{};  // of a choice, and room for one that is none
   std::array<Weight, limits::kNodes> weights_{};       // their running sums
   JumpSearch jump_;
+  Node jump_to_ = -1;  // who looks ahead: the best so far
+  Eta jump_rate_{};
+  double jump_within_m_ = 0.0;
   bool second_wind_ = false;  // all were done once, and what is left is seen to
   Node around_ = -1;          // node whose edges are looked along, and the next of them
   Edge around_edge_ = -1;

@@ -7,6 +7,14 @@
 namespace ivo::planner {
 namespace {
 
+// The first ant of each of the fast profile's generations: a greedy one, for a complete plan at once, then some that
+// look ahead.
+struct Scout {
+  int moves = 1;
+  double patience = 4.0;
+};
+constexpr std::array<Scout, 4> kScouts = {{{1, 4.0}, {3, 10.0}, {3, 4.0}, {2, 30.0}}};
+
 int edges_of(const Tour& tour) noexcept {
   int edges = 1;
   for (const EdgePath& path : tour.paths) {
@@ -46,7 +54,10 @@ int Colony::begin_generation() noexcept {
 int Colony::begin_ant() noexcept {
   phase_ = Phase::kAnt;
   AntParameters ant = parameters_.ant;
-  ant.greedy = parameters_.heuristic == Heuristic::kUnseen && generation_ == 0 && ants_done_ == 0;
+  if (parameters_.heuristic == Heuristic::kUnseen && ants_done_ == 0 && index(generation_) < kScouts.size()) {
+    ant.looks_ahead = kScouts[index(generation_)].moves;
+    ant.patience = kScouts[index(generation_)].patience;
+  }
   ant_.start(ant, parameters_.heuristic, parameters_.beta);
   return 16 + work::bytes(world_.belief.without_mass.bytes());
 }

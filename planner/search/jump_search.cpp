@@ -41,6 +41,7 @@ Node JumpSearch::settle_next() noexcept {
     const Settled& next = known.nodes[index(told_++)];
     edge_to_[index(next.node)] = next.edge;
     before_[index(next.node)] = next.before;
+    distance_m_[index(next.node)] = next.distance_m;
     return next.node;
   }
   if (known.whole) {
@@ -59,7 +60,7 @@ Node JumpSearch::settle_next() noexcept {
   }
   ++told_;
   if (known.count < kRemembered && known.count + 1 == told_) {
-    known.nodes[index(known.count++)] = {n, before_[index(n)], edge_to_[index(n)]};
+    known.nodes[index(known.count++)] = {n, before_[index(n)], edge_to_[index(n)], distance_m_[index(n)]};
   }
   return n;
 }

@@ -27,6 +27,8 @@ class JumpSearch {
 
   /// The edge by which a settled node is reached, -1 for the start.
   [[nodiscard]] Edge edge_to(Node n) const noexcept { return edge_to_[index(n)]; }
+  /// Of a settled node from the start, along the edges.
+  [[nodiscard]] double distance_m(Node n) const noexcept { return distance_m_[index(n)]; }
   /// The node before it.
   [[nodiscard]] Node before(Node n) const noexcept { return before_[index(n)]; }
   [[nodiscard]] int work() const noexcept { return work_; }  ///< edges looked at since start
@@ -39,6 +41,7 @@ class JumpSearch {
     Node node = 0;
     Node before = 0;
     Edge edge = 0;
+    double distance_m = 0.0;
   };
   // The nearest nodes of one start. The oldest makes room for another.
   static constexpr std::int32_t kRemembered = 96;

@@ -7,6 +7,41 @@
 
 namespace ivo::planner {
 
+Mass unseen_mass(const World& world, int agent, const SightView& view, const SeenMap& seen, int& work) noexcept {
+  const Belief& belief = world.belief;
+  const bool alike = !belief.has_sub_priors && belief.alike > Mass{};
+  const auto& mass = belief.has_sub_priors ? belief.sub_mass[index(agent)] : belief.mass;
+  Mass unseen{};
+  for (const Swath& swath : view.swaths) {
+    const std::uint64_t* const words = world.sight.words(swath);
+    int cells = 0;
+    for (int i = 0; i < swath.rows; ++i) {
+      const std::uint64_t fresh = words[i] & ~seen.window(swath.first_row + i, swath.first_byte);
+      cells += std::popcount(fresh);
+      if (!alike) {
+        const Cell first = seen.cell(swath.first_row + i, swath.first_byte, 0);
+        for_each_bit(fresh, [&](int bit) { unseen += mass[index(first + bit)]; });
+      }
+    }
+    if (alike) {
+      unseen += belief.alike * cells;
+      cells = 0;
+    }
+    work += work::rows_shown(swath.rows, cells);
+  }
+  return unseen;
+}
+
+Eta eta_of(Mass mass, double length_m) noexcept {
+  const double at_least_m = std::max(length_m, 1.0 / kTicksAMetre);
+#if IVO_PLANNER_FIXED
+  const auto ticks = static_cast<std::uint64_t>(at_least_m * kTicksAMetre);
+  return (static_cast<std::uint64_t>(std::max(mass, Mass{}).raw()) << 12U) / std::max<std::uint64_t>(1, ticks);
+#else
+  return mass / at_least_m;
+#endif
+}
+
 void UnseenHeuristic::begin(int agent, Node here) noexcept {
   agent_ = agent;
   first_ = edge_ = world_.graph.first_edge(here);
@@ -16,35 +51,8 @@ void UnseenHeuristic::begin(int agent, Node here) noexcept {
 }
 
 void UnseenHeuristic::weigh(const SeenMap& seen, int& work) noexcept {
-  const Belief& belief = world_.belief;
-  const bool sub_priors = belief.has_sub_priors;
-  Mass gain{};
-  for (const Swath& swath : world_.sight.along_edge(agent_, edge_).swaths) {
-    const std::uint64_t* const words = world_.sight.words(swath);
-    int cells = 0;
-    for (int i = 0; i < swath.rows; ++i) {
-      const std::uint64_t fresh = words[i] & ~seen.window(swath.first_row + i, swath.first_byte);
-      cells += std::popcount(fresh);
-      if (!sub_priors && belief.alike > Mass{}) {
-        continue;
-      }
-      const auto& mass = sub_priors ? belief.sub_mass[index(agent_)] : belief.mass;
-      const Cell first = seen.cell(swath.first_row + i, swath.first_byte, 0);
-      for_each_bit(fresh, [&](int bit) { gain += mass[index(first + bit)]; });
-    }
-    if (!sub_priors && belief.alike > Mass{}) {
-      gain += belief.alike * cells;
-      cells = 0;
-    }
-    work += work::rows_shown(swath.rows, cells);
-  }
-  const double length_m = std::max(world_.graph.length_m(edge_), 1.0 / kTicksAMetre);
-#if IVO_PLANNER_FIXED
-  const auto ticks = static_cast<std::uint64_t>(length_m * kTicksAMetre);
-  const Eta eta = (static_cast<std::uint64_t>(std::max(gain, Mass{}).raw()) << 12U) / std::max<std::uint64_t>(1, ticks);
-#else
-  const Eta eta = gain / length_m;
-#endif
+  const Eta eta = eta_of(unseen_mass(world_, agent_, world_.sight.along_edge(agent_, edge_), seen, work),
+                         world_.graph.length_m(edge_));
   etas_[index(edge_ - first_)] = eta;
   best_ = std::max(best_, eta);
 }

@@ -10,6 +10,18 @@
 
 namespace ivo::planner {
 
+#if IVO_PLANNER_FIXED
+using Eta = std::uint64_t;
+#else
+using Eta = double;
+#endif
+
+/// What a view would show an agent first, on its own sub-prior where there are any. Adds the work done: its rows.
+[[nodiscard]] Mass unseen_mass(const World& world, int agent, const SightView& view, const SeenMap& seen,
+                               int& work) noexcept;
+/// Mass a metre, in a unit of its own.
+[[nodiscard]] Eta eta_of(Mass mass, double length_m) noexcept;
+
 class UnseenHeuristic {
  public:
   explicit UnseenHeuristic(const World& world) noexcept : world_(world) {}
@@ -34,11 +46,6 @@ class UnseenHeuristic {
 
  private:
   static constexpr int kNeighbours = 128;
-#if IVO_PLANNER_FIXED
-  using Eta = std::uint64_t;
-#else
-  using Eta = double;
-#endif
 
   void weigh(const SeenMap& seen, int& work) noexcept;
 

@@ -1,0 +1,76 @@
+// A receding horizon: of the sequences of a few moves that follow the most promising edges, the one that shows most new
+// mass, what it shows late counting less; its first move is taken. Sees further than a greedy step, and costs as many
+// of them as there are sequences.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "planner/search/unseen_heuristic.hpp"
+#include "planner/search/world.hpp"
+
+namespace ivo::planner {
+
+class Lookahead {
+ public:
+  static constexpr int kMostMoves = 3;
+
+  explicit Lookahead(const World& world) noexcept : world_(world) {}
+
+  /// `patience`: a mass seen as late as an agent takes for so many of the graph's spacings counts 1/e of one seen now.
+  /// Moves from 1 to kMostMoves.
+  void open(int moves, double patience) noexcept;
+
+  /// An agent looks from a node, `from_s` after the start of nothing: times are relative.
+  void begin(int agent, Node here) noexcept;
+  /// Up to about `rows` rows. `seen` is changed while it works and as before when it is done. Returns the work done.
+  int advance(SeenMap& seen, int rows) noexcept;
+  [[nodiscard]] bool done() const noexcept { return depth_ < 0; }
+  /// When done: the first move, -1 when no edge of the node shows anything new.
+  [[nodiscard]] Edge first_move() const noexcept { return levels_[0].chosen; }
+
+ private:
+  static constexpr int kWidth = 4;  // edges followed at each move
+  static constexpr int kUndo = 8192;
+  static constexpr int kWeights = 64;  // of an eighth of the patience each
+
+  struct Option {
+    Eta rate{};
+    Edge edge = -1;
+  };
+  struct Level {
+    Edge next = 0;  // to weigh
+    Edge end = 0;
+    int count = 0;
+    int option = 0;  // under way
+    std::array<Option, kWidth> options{};
+    Seconds from_s{};
+    int undo_mark = 0;
+    Mass value{};  // of the option under way
+    Mass best{};
+    Edge chosen = -1;
+  };
+  struct Undo {
+    std::int32_t row = 0;
+    std::int32_t byte = 0;
+    std::uint64_t word = 0;
+  };
+
+  void push(Node here, Seconds from_s) noexcept;
+  void take_option(Edge e, Mass mass) noexcept;
+  int follow(SeenMap& seen, Edge e, Seconds from_s, Mass& value) noexcept;
+  int end_option(SeenMap& seen) noexcept;
+  [[nodiscard]] Mass weighted(Mass mass, Seconds time_s) const noexcept;
+
+  const World& world_;
+  int agent_ = 0;
+  int moves_ = 1;
+  int depth_ = -1;  // of the level under way
+  std::array<Level, kMostMoves> levels_{};
+  std::array<Undo, kUndo> undo_{};
+  int undo_count_ = 0;
+  std::array<Seconds, limits::kAgents> eighth_s_{};  // of the patience
+  std::array<Mass, kWeights> weights_{};             // as shares of 1
+};
+
+}  // namespace ivo::planner
