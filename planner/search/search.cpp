@@ -11,7 +11,7 @@ namespace {
 // Of MMAS, before its best plan is improved; on a large graph with fewer ants, so that it does not take long.
 constexpr int kFastGenerations = 5;
 constexpr int kFastAntsNodes = 3000;
-constexpr int kFastAntsLeast = 2;
+constexpr int kFastAntsLeast = 1;
 // Where it cannot be improved, MMAS goes on, and begins anew after so many generations without a better plan.
 constexpr int kRestartAfter = 60;
 
