@@ -28,7 +28,7 @@ enum class RefusalCode : std::uint8_t {
   kMapInvalid,         ///< value pixels given, limit width times height; or limit 0: value metres a pixel
   kNoAgents,           ///< nobody to search
   kCellSizeInvalid,    ///< value metres
-  kSpacingInvalid,     ///< value metres
+  kSpacingInvalid,     ///< value metres, limit the most
   kClearanceInvalid,   ///< value metres
   kSpeedInvalid,       ///< agent; value metres a second, limit the least there is
   kSightInvalid,       ///< agent; value metres, limit the most there is

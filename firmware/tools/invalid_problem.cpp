@@ -43,7 +43,8 @@ Error invalid_problem(const planner::Refusal& refusal, const Lines& lines) {
     case RefusalCode::kCellSizeInvalid:
       return lines.at("planner.cell_m", value + " is no size of a cell; expected metres above 0");
     case RefusalCode::kSpacingInvalid:
-      return lines.at("planner.spacing_m", value + " is no side of a square; expected metres above 0");
+      return lines.at("planner.spacing_m",
+                      value + " is no side of a square; expected metres above 0, at most " + shortest(refusal.limit));
     case RefusalCode::kClearanceInvalid:
       return lines.at("planner.clearance_m", value + " is no distance; expected metres, 0 or more");
     case RefusalCode::kSpeedInvalid:

@@ -1,6 +1,7 @@
 // What the search computes with: doubles, or fixed point when the planner is built with IVO_PLANNER_FIXED (CMake
 // option). Tables - graph, sight, prior - are made with doubles in both; from the first ant on a fixed-point build uses
-// whole numbers alone.
+// whole numbers for trails, masses, times and costs; lengths and draws use operations
+// that IEEE 754 rounds alike everywhere (+, -, *, /, square root, no contraction).
 //
 // | type       | holds                         | fixed format | range       | resolution |
 // | ---------- | ----------------------------- | ------------ | ----------- | ---------- |
@@ -46,12 +47,14 @@ using MassTime = double;
 #endif
 }
 
-/// A mass seen at `time_s`, which in fixed point counts at most as this: so no sum of them over a prior, not even one
-/// with a fine of 2.5 times as much, leaves MassTime's range.
-inline constexpr int kLongest_s = 16'384;
+/// A mass seen at `time_s`, which in fixed point counts at most as `kLongest`: so no sum of them over a prior leaves
+/// MassTime's range. Of a score that is 18 hours; of a judgement, which may add a fine of 2.5 times as much, 4.5.
+inline constexpr int kLongest_s = 65'000;
+inline constexpr int kLongestJudged_s = 16'384;
+template <int kLongest = kLongest_s>
 [[nodiscard]] constexpr MassTime mass_time(Mass mass, Seconds time_s) noexcept {
 #if IVO_PLANNER_FIXED
-  return mass * (time_s < Seconds(kLongest_s) ? time_s : Seconds(kLongest_s));
+  return mass * (time_s < Seconds(kLongest) ? time_s : Seconds(kLongest));
 #else
   return mass * time_s;
 #endif

@@ -9,9 +9,10 @@
 namespace ivo::planner {
 namespace {
 
-// Of the mean cell's mass. What lies farther out than 5 sigma is not worth a way there, and would be none in fixed
-// point, where it is smaller than a Mass can be.
+// Of the mean cell's mass: what lies farther out than 5 sigma is not worth a way there.
 constexpr double kNegligibleShare = 1e-5;
+// Of all: what fixed point would round to nothing counts as nothing in doubles too.
+constexpr double kLeastShare = 0x1p-32;
 
 Refusal check_areas(const Cells& cells, const SightTable& sight, const PreferredAreas& preferred,
                     const Belief& belief) noexcept {
@@ -58,7 +59,7 @@ Refusal normalise(const Cells& cells, const SightTable& sight, int agents, std::
   if (whole <= 0.0) {
     return {.code = RefusalCode::kPriorWithoutMass};
   }
-  const double negligible = kNegligibleShare * observable / cells.count();
+  const double negligible = observable * std::max(kNegligibleShare / cells.count(), kLeastShare);
   const auto counts = [&](Cell c) { return sight.observable_by(c) != 0 && raw[index(c)] > negligible; };
   double kept = 0.0;
   for (Cell c = 0; c < cells.count(); ++c) {

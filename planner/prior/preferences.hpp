@@ -16,9 +16,9 @@ namespace ivo::planner {
 using PreferredAreas = StaticVector<Areas, limits::kAgents>;
 
 /// From raw masses, one a cell and not normalised: belief.mass with sum 1 over the observable cells and 0 elsewhere,
-/// the list of cells with mass, and the unobservable share. A cell with less than 1e-5 of the mean counts as empty: of
-/// the whole that is less than 1e-5. Refuses a mass below 0, one that is not finite, and an
-/// agent that can observe no mass. Cost: the cells.
+/// the list of cells with mass, and the unobservable share. A cell with less than 1e-5 of the mean, or than 2^-32 of
+/// all, counts as empty: of the whole that is less than 1e-5, or 1e-3 on the largest maps. Refuses a mass below 0, one
+/// that is not finite, and an agent that can observe no mass. Cost: the cells.
 [[nodiscard]] Refusal normalise(const Cells& cells, const SightTable& sight, int agents, std::span<const double> raw,
                                 Belief& belief) noexcept;
 
@@ -38,10 +38,14 @@ void fill_sub_prior(int agent, double sum, Belief& belief, AgentSet& left_withou
     left_without = static_cast<AgentSet>(left_without | agent_bit(agent));
   }
   const double scale = none ? 1.0 / belief.agents : 1.0 / (belief.agents * sum);
+  Mass sum_of_agent{};
   for (const Cell c : belief.cells_with_mass()) {
     const double share = none ? to_double(belief.mass[index(c)]) : share_of(c);
-    belief.sub_mass[index(agent)][index(c)] = mass_from(share * scale);
+    const Mass mass = mass_from(share * scale);
+    belief.sub_mass[index(agent)][index(c)] = mass;
+    sum_of_agent += mass;
   }
+  belief.sub_whole = agent == 0 ? sum_of_agent : belief.sub_whole + sum_of_agent;
 }
 
 }  // namespace ivo::planner

@@ -64,7 +64,9 @@ int Ant::advance(Rng& rng, int rows) noexcept {
   return 0;
 }
 
-bool Ant::complete() const noexcept { return is_complete(to_double(unseen_), parameters_.max_unseen_mass); }
+bool Ant::complete() const noexcept {
+  return is_complete(to_double(unseen_) / to_double(world_.belief.whole), parameters_.max_unseen_mass);
+}
 
 // The agent whose path ends earliest with probability q, else one of the others; a single one left is taken without a
 // draw.

@@ -36,12 +36,13 @@ class Ant {
   /// Puts every agent on its start. `beta` is for eta_MTS; eta_TSP is in the trails. Cost: the seen map's bytes.
   void start(const AntParameters& parameters, Heuristic heuristic, int beta) noexcept;
 
-  /// Does a part of the work: a choice, up to `rows` rows of a move, one node of a jump search. Returns the work done,
+  /// Does a part of the work: a choice, up to `rows` rows of a move or of a look
+  /// ahead, one node of a jump search; an edge's view is not cut in two there. Returns the work done,
   /// in units (planner.hpp). Nothing when done.
   int advance(Rng& rng, int rows) noexcept;
 
   [[nodiscard]] bool done() const noexcept { return phase_ == Phase::kDone; }
-  /// Another mission. Cost: the cells with mass.
+  /// Another mission. Cost: the cells with mass, agents times nodes.
   void open() noexcept {
     sectors_.open();
     jump_.open(world_.graph);

@@ -20,8 +20,9 @@ struct Belief {
   std::array<Mass, limits::kCells> mass{};
   Mass whole =
       Mass(1);  ///< the sum of p: 1 but for the rounding of the cells; nothing is unseen when all of it is seen
-  /// p_m: each sums to 1/M (Eq. 10); set when has_sub_priors.
+  /// p_m: each sums to 1/M (Eq. 10) but for the cells' rounding, all together to sub_whole; set when has_sub_priors.
   std::array<std::array<Mass, limits::kCells>, limits::kAgents> sub_mass{};
+  Mass sub_whole = Mass(1);
   Mass alike{};                                   ///< p of every cell with mass when all have the same, else 0
   std::array<Cell, limits::kCells> mass_cells{};  ///< the cells with mass, ascending
   int mass_cell_count = 0;

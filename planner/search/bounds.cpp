@@ -140,11 +140,11 @@ double BoundTable::integral_s(const Curve& f, double unseen_mass) const noexcept
   constexpr double kRounding = 1e-9;  // of sums of masses
   double sum_s = 0.0;
   for (int k = 1; k <= kInstants; ++k) {
-    const double seen = f[index(k)];
-    if (seen >= whole_ - unseen_mass - kRounding) {
+    const double seen = f[index(k)] / whole_;
+    if (seen >= 1.0 - unseen_mass - kRounding) {
       break;
     }
-    sum_s += (instant_s(k) - instant_s(k - 1)) * (whole_ - seen);
+    sum_s += (instant_s(k) - instant_s(k - 1)) * (1.0 - seen);
   }
   return sum_s;
 }

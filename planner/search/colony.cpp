@@ -7,8 +7,8 @@
 namespace ivo::planner {
 namespace {
 
-// The first ant of each of the fast profile's generations: a greedy one, for a complete plan at once, then some that
-// look ahead.
+// The first ant of the fast profile's first generations: a greedy one, for a complete plan early, then some that look
+// ahead.
 struct Scout {
   int moves = 1;
   double patience = 4.0;

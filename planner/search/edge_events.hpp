@@ -42,7 +42,7 @@ class EdgeEvents {
   int prepare(int agent, Node tail, Edge e, int rows) noexcept;
   /// True when the edge can be made ready and no other has to make room for it.
   [[nodiscard]] bool has_room_for(int agent, Edge e) const noexcept {
-    return head_ + most(agent, e) <= limits::kSightEvents && block_count_ < kBlocks &&
+    return head_ + most(agent, e) <= kept_ && block_count_ < kBlocks &&
            (block_count_ == 0 || blocks_[index(oldest_)].first < head_);
   }
   [[nodiscard]] bool ready(int agent, Edge e) const noexcept { return slots_[slot(agent, e)].count >= 0; }

@@ -12,6 +12,7 @@ int terms_before(std::int32_t step) noexcept { return std::max(step, 1) - 1; }
 
 void ExpectedTime::add(const Belief& belief, const FirstSightings& sightings, int first, int count) noexcept {
   whole_ = belief.whole;
+  sub_whole_ = belief.sub_whole;
   if (belief.has_sub_priors) {
     add_sub_priors(belief, sightings, first, count);
   }
@@ -67,22 +68,25 @@ Mass ExpectedTime::unseen() const noexcept { return std::max(Mass{}, whole_ - se
 Mass ExpectedTime::expected_time() const noexcept { return mass_steps_ + unseen() * step_of(horizon_s()); }
 
 Mass ExpectedTime::expected_sub_prior_time(const Belief& belief) const noexcept {
-  return sub_mass_steps_ + std::max(Mass{}, Mass(1) - sub_mass_) * belief.sub_prior_steps;
+  return sub_mass_steps_ + std::max(Mass{}, belief.sub_whole - sub_mass_) * belief.sub_prior_steps;
 }
 
 Mass ExpectedTime::expected_sub_prior_time_to_end() const noexcept {
-  return sub_mass_all_steps_ + std::max(Mass{}, Mass(1) - sub_mass_) * step_of(horizon_s());
+  return sub_mass_all_steps_ + std::max(Mass{}, sub_whole_ - sub_mass_) * step_of(horizon_s());
 }
 
+// The cells' rounding out of it: shares of what they sum to.
 PlanScore ExpectedTime::score(const Belief& belief, double max_unseen_mass) const noexcept {
+  const double whole = to_double(belief.whole);
   PlanScore score;
   score.horizon_s = to_double(horizon_s());
-  score.unseen_mass = to_double(unseen());
+  score.unseen_mass = to_double(unseen()) / whole;
   score.complete = is_complete(score.unseen_mass, max_unseen_mass);
-  score.expected_time_continuous_s = to_double(mass_seconds_) + score.unseen_mass * score.horizon_s;
-  score.expected_time_s = to_double(expected_time()) * kStepSeconds;
+  score.expected_time_continuous_s = to_double(mass_seconds_) / whole + score.unseen_mass * score.horizon_s;
+  score.expected_time_s = to_double(expected_time()) / whole * kStepSeconds;
   if (belief.has_sub_priors) {
-    score.expected_sub_prior_time_s = to_double(expected_sub_prior_time(belief)) * kStepSeconds;
+    score.expected_sub_prior_time_s =
+        to_double(expected_sub_prior_time(belief)) / to_double(belief.sub_whole) * kStepSeconds;
   }
   return score;
 }

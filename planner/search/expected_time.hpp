@@ -42,6 +42,7 @@ class ExpectedTime {
   [[nodiscard]] Seconds horizon_s() const noexcept;
 
   Mass whole_ = Mass(1);
+  Mass sub_whole_ = Mass(1);
   Mass seen_mass_{};
   MassTime mass_seconds_{};    // sum of p t_c
   Mass mass_steps_{};          // sum of p (max(k, 1) - 1)

@@ -17,12 +17,12 @@ class JumpSearch {
 
   /// Another graph: forgets all. Cost: agents times nodes.
   void open(const Graph& graph) noexcept;
-  /// Starts at `from` over the edges open to `agent`. Cost: one per node of the last search.
+  /// Starts at `from` over the edges open to `agent`. Cost: constant.
   void start(int agent, Node from) noexcept;
 
   /// The next nearest node, lowest index on a tie; -1 when all that can be reached are settled; kCatchingUp when it
   /// must be called again: behind the remembered nodes the search itself has to follow. Cost: a node's edges, each with
-  /// a logarithm; of a remembered one, constant.
+  /// a logarithm, and once the nodes of the last search; of a remembered one, constant.
   [[nodiscard]] Node settle_next() noexcept;
 
   /// The edge by which a settled node is reached, -1 for the start.

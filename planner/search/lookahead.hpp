@@ -26,7 +26,8 @@ class Lookahead {
   /// Up to about `rows` rows. `seen` is changed while it works and as before when it is done. Returns the work done.
   int advance(SeenMap& seen, int rows) noexcept;
   [[nodiscard]] bool done() const noexcept { return depth_ < 0; }
-  /// When done: the first move, -1 when no edge of the node shows anything new.
+  /// When done: the first move, -1 when no edge of the node shows anything new that is worth
+  /// the resolution of a mass.
   [[nodiscard]] Edge first_move() const noexcept { return levels_[0].chosen; }
 
  private:

@@ -175,8 +175,9 @@ void PathScorer::take_own(Cell first, std::uint64_t fresh) noexcept {
 PlanScore PathScorer::score() const noexcept {
   PlanScore score = expected_.score(*belief_, max_unseen_mass_);
   if (belief_->has_sub_priors) {
-    const Mass left = std::max(Mass{}, Mass(1) - own_mass_);
-    score.expected_sub_prior_time_own_s = to_double(own_mass_steps_ + left * belief_->sub_prior_steps) * kStepSeconds;
+    const Mass left = std::max(Mass{}, belief_->sub_whole - own_mass_);
+    score.expected_sub_prior_time_own_s =
+        to_double(own_mass_steps_ + left * belief_->sub_prior_steps) / to_double(belief_->sub_whole) * kStepSeconds;
   }
   return score;
 }

@@ -30,8 +30,8 @@ Refusal check_sizes(const SearchProblem& problem) noexcept {
   if (!above_zero(problem.cell_m)) {
     return {.code = RefusalCode::kCellSizeInvalid, .value = problem.cell_m};
   }
-  if (!above_zero(problem.graph.spacing_m)) {
-    return {.code = RefusalCode::kSpacingInvalid, .value = problem.graph.spacing_m};
+  if (!above_zero(problem.graph.spacing_m) || problem.graph.spacing_m > kMostSpacing_m) {
+    return {.code = RefusalCode::kSpacingInvalid, .value = problem.graph.spacing_m, .limit = kMostSpacing_m};
   }
   if (!std::isfinite(problem.graph.clearance_m) || problem.graph.clearance_m < 0.0) {
     return {.code = RefusalCode::kClearanceInvalid, .value = problem.graph.clearance_m};

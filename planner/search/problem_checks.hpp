@@ -26,6 +26,7 @@ inline constexpr double kLeastSpeed_mps = 1e-4;
 /// Of a sight radius, in cells.
 inline constexpr double kMostSightCells = 1e8;
 inline constexpr double kLeastSigma_m = 1e-6;
+inline constexpr double kMostSpacing_m = 1e9;
 
 /// The first fault: of the map, the sizes, the colony, the agents in order, the prior, the sub-priors. Starts are for
 /// Graph::build, capacities for who fills them. Cost: agents, vertices and components.

@@ -18,6 +18,8 @@ Fixed<F> share(Fixed<F> of, Mass part, Mass whole) noexcept {
 double share(double of, double part, double whole) noexcept { return of * (part / whole); }
 #endif
 
+MassTime judged(Mass mass, Seconds time_s) noexcept { return mass_time<kLongestJudged_s>(mass, time_s); }
+
 }  // namespace
 
 void RouteJudge::open(const Cells& cells, const Belief& belief, const std::array<SecondsAMetre, limits::kAgents>& paces,
@@ -39,7 +41,7 @@ void RouteJudge::open(const Cells& cells, const Belief& belief, const std::array
 
 void RouteJudge::demand(double mass) noexcept {
   demanded_ = std::clamp(mass, 0.0, 0.75 * may_stay_unseen_);
-  const Mass max_unseen = mass_from(may_stay_unseen_ - demanded_);
+  const Mass max_unseen = mass_from((may_stay_unseen_ - demanded_) * to_double(belief_->whole));
   if (max_unseen != max_unseen_) {
     max_unseen_ = max_unseen;
     kept_count_ = 0;  // some may lie behind where a plan is complete now
@@ -59,7 +61,7 @@ int RouteJudge::start(const Route& route, Seconds changed_s) noexcept {
     state_ = kept_[index(from)];
     seen_.copy(kept_seen_[index(from)]);
   } else {
-    state_ = State{.time_s = {}, .unseen = belief_->whole, .unfound = Mass(1), .cost = {}, .cursors = {}};
+    state_ = State{.time_s = {}, .unseen = belief_->whole, .unfound = belief_->sub_whole, .cost = {}, .cursors = {}};
     seen_.copy(belief_->without_mass);
     for (int m = 0; m < agents_; ++m) {
       const Shown shown = look(m, pool_.part(pool_[starts_[index(m)]].first_part));
@@ -131,10 +133,10 @@ int RouteJudge::advance_agent(int agent) noexcept {
   }
   const Seconds middle_s = begin_s + length_s / 2;
   if (belief_->has_sub_priors) {
-    state_.cost += mass_time(shown.sub_mass, std::min(middle_s, horizon_s_));
+    state_.cost += judged(shown.sub_mass, std::min(middle_s, horizon_s_));
     state_.unfound -= shown.sub_mass;
   } else {
-    state_.cost += mass_time(shown.mass, middle_s);
+    state_.cost += judged(shown.mass, middle_s);
   }
   state_.unseen -= shown.mass;
   ++cursor.parts_done;
@@ -191,9 +193,9 @@ void RouteJudge::end_complete(Seconds begin_s, Seconds length_s, const Shown& sh
   if (belief_->has_sub_priors) {
     const Mass found = shown.mass > Mass{} ? share(shown.sub_mass, needed, shown.mass) : Mass{};
     judgement_.cost =
-        state_.cost + mass_time(found, std::min(middle_s, horizon_s_)) + mass_time(state_.unfound - found, horizon_s_);
+        state_.cost + judged(found, std::min(middle_s, horizon_s_)) + judged(state_.unfound - found, horizon_s_);
   } else {
-    judgement_.cost = state_.cost + mass_time(needed, middle_s) + mass_time(max_unseen_, judgement_.end_s);
+    judgement_.cost = state_.cost + judged(needed, middle_s) + judged(max_unseen_, judgement_.end_s);
   }
   judgement_.complete = true;
   for (int m = 0; m < agents_; ++m) {
@@ -207,9 +209,9 @@ void RouteJudge::end_incomplete() noexcept {
   const Seconds end_s = state_.time_s;
   const Mass missing = std::max(Mass{}, state_.unseen - max_unseen_);
   if (belief_->has_sub_priors) {
-    judgement_.cost = state_.cost + mass_time(state_.unfound, horizon_s_) + mass_time(missing, horizon_s_) * 2;
+    judgement_.cost = state_.cost + judged(state_.unfound, horizon_s_) + judged(missing, horizon_s_) * 2;
   } else {
-    judgement_.cost = state_.cost + mass_time(state_.unseen, end_s) * 3 / 2 + mass_time(missing, end_s) * 2;
+    judgement_.cost = state_.cost + judged(state_.unseen, end_s) * 3 / 2 + judged(missing, end_s) * 2;
   }
   judgement_.end_s = end_s;
   judgement_.complete = false;

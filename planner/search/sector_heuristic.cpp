@@ -23,7 +23,7 @@ void SectorHeuristic::open() noexcept {
   tiles_ = columns_ * ((cells.rows() + kTile - 1) / kTile);
   units_a_metre_ = kUnitsACell / cells.cell_m();
   const double spacing = world_.graph.spacing_m() * units_a_metre_;
-  spacing_units2_ = std::max<std::int64_t>(1, static_cast<std::int64_t>(spacing * spacing));
+  spacing_units2_ = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::min(spacing * spacing, 0x1p60)));
   for (int i = 0; i < kDiscounts; ++i) {
     const auto discount = [](double squared) {
       return static_cast<std::int32_t>(kOne * exp_negative(kLogLambda * std::sqrt(squared)) + 0.5);

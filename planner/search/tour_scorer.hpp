@@ -15,8 +15,7 @@ class TourScorer {
   TourScorer(const World& world, FirstSightings& sightings) noexcept
       : world_(world), events_(world.cells, world.graph, world.sight), sightings_(sightings) {}
 
-  /// Another mission. Cost: the edges.
-  /// `to_end`: EST runs to the plan's own end, K = N, as the paper has it.
+  /// Another mission; `to_end`: EST runs to the plan's own end, K = N, as the paper has it. Cost: the edges.
   void open(bool to_end) noexcept {
     to_end_ = to_end;
     events_.clear();

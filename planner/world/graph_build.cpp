@@ -46,8 +46,8 @@ AgentSet agents_on(const SegmentedMap& map, const GraphAgents& agents, Point a, 
 
 Refusal Graph::build(const SegmentedMap& map, const GraphParameters& parameters, const GraphAgents& agents) noexcept {
   constexpr double kWhole = 1e-9;  // 10 m / 2.5 m is 4 squares, whatever the rounding
-  const double columns = std::ceil(map.width_m() / parameters.spacing_m - kWhole);
-  const double rows = std::ceil(map.height_m() / parameters.spacing_m - kWhole);
+  const double columns = std::max(1.0, std::ceil(map.width_m() / parameters.spacing_m - kWhole));
+  const double rows = std::max(1.0, std::ceil(map.height_m() / parameters.spacing_m - kWhole));
   if (columns * rows > static_cast<double>(kSquares)) {
     return {.code = RefusalCode::kTooManySquares, .value = columns * rows, .limit = static_cast<double>(kSquares)};
   }

@@ -18,7 +18,7 @@ class DegenerateSearch {
   explicit DegenerateSearch(std::mt19937_64& random) : random_(random) {
     draw_map();
     problem_.cell_m = one_of({0.25, 0.25, 0.5, 0.1, 1.0, 7.0, 1000.0, 0.001});
-    problem_.graph.spacing_m = one_of({0.5, 1.0, 2.0, 2.0, 3.5, 50.0, 0.01});
+    problem_.graph.spacing_m = one_of({0.5, 1.0, 2.0, 2.0, 3.5, 50.0, 0.01, 9e5, 1e12});
     problem_.graph.clearance_m = one_of({0.0, 0.1, 0.4, 0.4, 30.0, 1e300});
     draw_prior();
     const int agents = 1 + below(limits::kAgents);

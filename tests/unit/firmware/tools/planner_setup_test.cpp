@@ -141,7 +141,8 @@ TEST_F(InvalidInputs, AreRefusedForSizesThatAreNone) {
   EXPECT_EQ(complaint(), "m.toml:5: planner.cell_m: nan is no size of a cell; expected metres above 0");
   mission().planner.cell_m = 0.5;
   mission().planner.spacing_m = 0.0;
-  EXPECT_EQ(complaint(), "m.toml:4: planner.spacing_m: 0 is no side of a square; expected metres above 0");
+  EXPECT_EQ(complaint(),
+            "m.toml:4: planner.spacing_m: 0 is no side of a square; expected metres above 0, at most 1000000000");
   mission().planner.spacing_m = 3.5;
   mission().planner.clearance_m = -1.0;
   EXPECT_EQ(complaint(), "m.toml:4: planner.clearance_m: -1 is no distance; expected metres, 0 or more");

@@ -186,7 +186,9 @@ TEST(MassTimeOf, CountsATimeInFullOrAsTheLongestThatThereIsRangeFor) {
   for (const double late_s : {kLongest_s + 1.0, 65'536.0, 1e9}) {
     EXPECT_EQ(to_double(mass_time(Mass(1), Seconds(late_s))), kFixedPoint ? kLongest_s : late_s);
   }
-  const MassTime longest = mass_time(Mass(1), Seconds(1e9));
+  EXPECT_EQ(to_double(mass_time<kLongestJudged_s>(Mass(1), Seconds(17'000))), kFixedPoint ? kLongestJudged_s : 17'000);
+  EXPECT_GT(mass_time(Mass(1.004), Seconds(1e9)), MassTime{});  // the cells' rounding
+  const MassTime longest = mass_time<kLongestJudged_s>(Mass(1.004), Seconds(1e9));
   EXPECT_GT(longest + longest * 2 + longest / 2, longest);  // with the fine
 }
 
