@@ -6,38 +6,17 @@
 #include "planner/search/work.hpp"
 
 namespace ivo::planner {
-namespace {
-
-// What these swaths show of a window: consecutive ones overlap.
-std::uint64_t shown_by(const SightTable& sight, std::span<const Swath> swaths, int row, int first_byte) noexcept {
-  std::uint64_t shown = 0;
-  for (const Swath& swath : swaths) {
-    const int i = row - swath.first_row;
-    const int bits = 8 * (swath.first_byte - first_byte);
-    if (i >= 0 && i < swath.rows && bits > -64 && bits < 64) {
-      const std::uint64_t word = sight.words(swath)[i];
-      shown |= bits >= 0 ? word << static_cast<unsigned>(bits) : word >> static_cast<unsigned>(-bits);
-    }
-  }
-  return shown;
-}
-
-}  // namespace
 
 Mass unseen_mass(const World& world, int agent, const SightView& view, const SeenMap& seen, int& work) noexcept {
   const Belief& belief = world.belief;
   const bool alike = !belief.has_sub_priors && belief.alike > Mass{};
   const auto& mass = belief.has_sub_priors ? belief.sub_mass[index(agent)] : belief.mass;
   Mass unseen{};
-  for (std::size_t s = 0; s < view.size(); ++s) {
-    const Swath& swath = view.swaths[s];
+  for (const Swath& swath : view.swaths) {
     const std::uint64_t* const words = world.sight.words(swath);
     int cells = 0;
     for (int i = 0; i < swath.rows; ++i) {
-      std::uint64_t fresh = words[i] & ~seen.window(swath.first_row + i, swath.first_byte);
-      if (fresh != 0) {
-        fresh &= ~shown_by(world.sight, view.swaths.first(s), swath.first_row + i, swath.first_byte);
-      }
+      const std::uint64_t fresh = words[i] & ~seen.window(swath.first_row + i, swath.first_byte);
       cells += std::popcount(fresh);
       if (!alike) {
         const Cell first = seen.cell(swath.first_row + i, swath.first_byte, 0);
@@ -48,7 +27,7 @@ Mass unseen_mass(const World& world, int agent, const SightView& view, const See
       unseen += belief.alike * cells;
       cells = 0;
     }
-    work += work::rows_shown(swath.rows * (1 + static_cast<int>(s)), cells);
+    work += work::rows_shown(swath.rows, cells);
   }
   return unseen;
 }

@@ -1,4 +1,4 @@
-// Node choice by unseen mass: eta is the mass that the way to a neighbour would show first, over its length. What a
+// Node choice by unseen mass: eta is the mass that the parts of the way to a neighbour would show, over its length. What a
 // greedy planner would do next, as odds; recomputed at each step, from the swaths.
 #pragma once
 
@@ -16,7 +16,9 @@ using Eta = std::uint64_t;
 using Eta = double;
 #endif
 
-/// What a view would show an agent first, on its own sub-prior where there are any. Adds the work done: its rows.
+/// What a view would show an agent first, on its own sub-prior where there are any; a cell in sight of several of its
+/// swaths counts once for each: quicker than once and for all, and what stays in sight longer is no worse to choose.
+/// Adds the work done: its rows.
 [[nodiscard]] Mass unseen_mass(const World& world, int agent, const SightView& view, const SeenMap& seen,
                                int& work) noexcept;
 /// Mass a metre, in a unit of its own.

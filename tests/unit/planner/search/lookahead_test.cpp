@@ -67,12 +67,9 @@ class SlowLookahead {
     std::vector<Option> options;
     for (Edge e = world_.graph.first_edge(here); e < world_.graph.end_edge(here); ++e) {
       if (in(world_.graph.open_to(e), agent_)) {
-        SeenCells then = seen;
-        double mass = 0.0;
-        test::for_each_cell(world_.cells, world_.sight, world_.sight.along_edge(agent_, e), [&](Cell c, const Swath&) {
-          mass += then[index(c)] ? 0.0 : mass_of(c);
-          then[index(c)] = true;
-        });
+        double mass = 0.0;  // a cell once for each swath that shows it
+        test::for_each_cell(world_.cells, world_.sight, world_.sight.along_edge(agent_, e),
+                            [&](Cell c, const Swath&) { mass += seen[index(c)] ? 0.0 : mass_of(c); });
         if (mass > 0.0) {
           options.push_back({mass / world_.graph.length_m(e), e});
         }
