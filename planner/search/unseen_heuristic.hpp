@@ -1,5 +1,5 @@
-// Node choice by unseen mass: eta is the mass that the parts of the way to a neighbour would show, over its length. What a
-// greedy planner would do next, as odds; recomputed at each step, from the swaths.
+// Node choice by unseen mass: eta is the mass that the parts of the way to a neighbour would show, over its length.
+// What a greedy planner would do next, as odds; recomputed at each step, from the swaths.
 #pragma once
 
 #include <array>
