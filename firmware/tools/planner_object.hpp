@@ -1,5 +1,7 @@
-// The program's planner.
+// The program's planner, and others beside it.
 #pragma once
+
+#include <memory>
 
 #include "planner/search/planner.hpp"
 
@@ -7,5 +9,11 @@ namespace ivo::firmware {
 
 /// The largest object of the product: static, so that its pages are there from the start and belong to nobody's heap.
 [[nodiscard]] planner::Planner& the_planner();
+
+struct PlannerDeleter {
+  void operator()(planner::Planner* planner) const noexcept;
+};
+/// Another, on the heap, for who searches beside it.
+[[nodiscard]] std::unique_ptr<planner::Planner, PlannerDeleter> make_planner();
 
 }  // namespace ivo::firmware

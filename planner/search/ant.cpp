@@ -17,7 +17,6 @@ void Ant::start(const AntParameters& parameters, Heuristic heuristic, int beta) 
     visited_.fill(0);
     ant_number_ = 1;
   }
-  seen_.copy(world_.belief.without_mass);
   unseen_ = world_.belief.whole;
   low_steps_ = high_steps_ = Mass{};
   last_new_s_ = Seconds{};
@@ -26,7 +25,7 @@ void Ant::start(const AntParameters& parameters, Heuristic heuristic, int beta) 
     sectors_.start();
   }
   if (parameters.looks_ahead > 0) {
-    lookahead_.open(parameters.looks_ahead, parameters.patience);
+    lookahead_.start(parameters.looks_ahead, parameters.patience);
   }
   for (int m = 0; m < world_.graph.agents(); ++m) {
     at_[index(m)] = m;
@@ -34,16 +33,17 @@ void Ant::start(const AntParameters& parameters, Heuristic heuristic, int beta) 
     retired_[index(m)] = false;
     paths_[index(m)].clear();
     visit(m);
-    agent_ = m;
-    for (const Swath& swath : world_.sight.from_node(m, m).swaths) {
-      (void)look(swath, world_.sight.words(swath), 0, 0);
-    }
   }
-  phase_ = Phase::kChooseAgent;
+  cleared_ = 0;
+  phase_ = Phase::kClear;
 }
 
 int Ant::advance(Rng& rng, int rows) noexcept {
   switch (phase_) {
+    case Phase::kClear:
+      return clear(rows);
+    case Phase::kLookFromStarts:
+      return look_from_starts(rows);
     case Phase::kChooseAgent:
       return choose_agent(rng);
     case Phase::kWeigh:
@@ -53,7 +53,9 @@ int Ant::advance(Rng& rng, int rows) noexcept {
     case Phase::kChooseNode:
       return choose_node(rng);
     case Phase::kJump:
-      return jump();
+      return jump(rows);
+    case Phase::kLookAtNode:
+      return look_at_node(rows);
     case Phase::kLookAround:
       return look_around(rows);
     case Phase::kMove:
@@ -66,6 +68,41 @@ int Ant::advance(Rng& rng, int rows) noexcept {
 
 bool Ant::complete() const noexcept {
   return is_complete(to_double(unseen_) / to_double(world_.belief.whole), parameters_.max_unseen_mass);
+}
+
+// A new ant: what is seen is what has no mass, and what is in sight of the starts.
+int Ant::clear(int rows) noexcept {
+  if (heuristic_ == Heuristic::kMts && !sectors_.started()) {
+    return sectors_.start_tiles(rows);
+  }
+  const SeenMap& unseen = world_.belief.without_mass;
+  const int count = std::min(rows * work::kBytesCopied, unseen.bytes() - cleared_);
+  seen_.copy(unseen, cleared_, count);
+  cleared_ += count;
+  const int work = 1 + work::bytes(count);
+  if (cleared_ < unseen.bytes()) {
+    return work;
+  }
+  agent_ = 0;
+  walk_.begin(world_.sight.from_node(0, 0));
+  phase_ = Phase::kLookFromStarts;
+  return work;
+}
+
+int Ant::look_from_starts(int rows) noexcept {
+  int work = 1;
+  while (work <= rows) {
+    if (!walk_.done()) {
+      const ViewWalk::Part part = walk_.next(world_.sight, rows - work + 1);
+      work += look(part.swath, part.words, 0, 0);
+    } else if (++agent_ < world_.graph.agents()) {
+      walk_.begin(world_.sight.from_node(agent_, agent_));
+    } else {
+      phase_ = Phase::kChooseAgent;
+      return work;
+    }
+  }
+  return work;
 }
 
 // The agent whose path ends earliest with probability q, else one of the others; a single one left is taken without a
@@ -111,8 +148,9 @@ int Ant::choose_agent(Rng& rng) noexcept {
   }
   phase_ = heuristic_ == Heuristic::kTsp ? Phase::kChooseNode : Phase::kWeigh;
   if (heuristic_ == Heuristic::kMts) {
-    sectors_.begin(agent_, at_[index(agent_)]);
-  } else if (heuristic_ == Heuristic::kUnseen) {
+    return 1 + sectors_.begin(agent_, at_[index(agent_)]);
+  }
+  if (heuristic_ == Heuristic::kUnseen) {
     unseen_mass_.begin(agent_, at_[index(agent_)]);
   }
   return 1;
@@ -170,7 +208,7 @@ int Ant::choose_node(Rng& rng) noexcept {
     sum += by_length ? trails_.attraction(agent, e) : trails_.attraction(agent, e, visibility(e));
     weights_[i] = sum;
   }
-  const int work = work::choice(end - first);
+  const int work = work::choice(end - first) + (by_length ? 0 : work::visibilities(end - first));
   if (sum <= Weight{}) {
     begin_jump();
     return work;
@@ -192,16 +230,6 @@ int Ant::choose_node(Rng& rng) noexcept {
   return work;
 }
 
-bool Ant::shows_something_new(const SightView& view, int& work) const noexcept {
-  for (const Swath& swath : view.swaths) {
-    work += work::rows_searched(swath.rows);
-    if (seen_.any_new(swath, world_.sight.words(swath))) {
-      return true;
-    }
-  }
-  return false;
-}
-
 void Ant::begin_jump() noexcept {
   jump_.start(agent_, at_[index(agent_)]);
   jump_to_ = -1;
@@ -211,76 +239,104 @@ void Ant::begin_jump() noexcept {
 }
 
 // Without a candidate: to the nearest unvisited node that has unseen mass in sight, along the shortest path. The second
-// time round any node will do, and so will an edge that begins there.
-int Ant::jump() noexcept {
+// time round any node will do, and so will an edge that begins there. Who looks ahead: of the nodes up to twice as far
+// as the nearest that shows anything, to that which shows most for its way.
+int Ant::jump(int rows) noexcept {
   const int work_before = jump_.work();
   const Node n = jump_.settle_next();
-  int work = work::settled(jump_.work() - work_before);
+  const int work = work::settled(jump_.work() - work_before);
   if (n == JumpSearch::kCatchingUp) {
     return work;
   }
-  if (parameters_.looks_ahead > 0 && !second_wind_) {
-    return work + judge_jump(n);
-  }
-  if (n < 0) {
-    retire();
-  } else if ((second_wind_ || !visited(n)) && shows_something_new(world_.sight.from_node(agent_, n), work)) {
-    go_to(n);
-  } else if (second_wind_) {
-    around_ = n;
-    around_edge_ = world_.graph.first_edge(n);
-    phase_ = Phase::kLookAround;
-  }
-  return work;
-}
-
-// Who looks ahead: of the nodes up to twice as far as the nearest that shows anything, to that which shows most for its
-// way.
-int Ant::judge_jump(Node n) noexcept {
-  if (n < 0 || jump_.distance_m(n) > jump_within_m_) {
+  if (n < 0 || (judges_jumps() && jump_.distance_m(n) > jump_within_m_)) {
     if (jump_to_ >= 0) {
       go_to(jump_to_);
     } else {
       retire();
     }
-    return 1;
+    return work;
   }
-  int work = 0;
-  const Mass mass = unseen_mass(world_, agent_, world_.sight.from_node(agent_, n), seen_, work);
-  if (mass > Mass{} && n != at_[index(agent_)]) {
-    const double way_m = jump_.distance_m(n);
-    const Eta rate = eta_of(mass, way_m);
-    jump_within_m_ = std::min(jump_within_m_, 2.0 * way_m);
-    if (jump_to_ < 0 || rate > jump_rate_) {
-      jump_to_ = n;
-      jump_rate_ = rate;
+  if (!judges_jumps() && !second_wind_ && visited(n)) {
+    return work;
+  }
+  jump_node_ = n;
+  const SightView view = world_.sight.from_node(agent_, n);
+  if (judges_jumps()) {
+    shown_there_.begin(agent_, view);
+  } else {
+    walk_.begin(n == at_[index(agent_)] ? SightView{} : view);  // what is in sight from here has been seen
+  }
+  phase_ = Phase::kLookAtNode;
+  return work + look_at_node(rows);
+}
+
+int Ant::look_at_node(int rows) noexcept {
+  int work = 1;
+  if (judges_jumps()) {
+    work += shown_there_.advance(seen_, rows);
+    if (shown_there_.done()) {
+      judge_jump(jump_node_);
+      phase_ = Phase::kJump;
     }
+  } else if (finds_new(rows, work)) {
+    go_to(jump_node_);
+  } else if (walk_.done()) {
+    jump_edge_ = world_.graph.first_edge(jump_node_) - 1;
+    phase_ = second_wind_ ? Phase::kLookAround : Phase::kJump;
   }
   return work;
 }
 
+void Ant::judge_jump(Node n) noexcept {
+  const Mass mass = shown_there_.mass();
+  if (mass <= Mass{} || n == at_[index(agent_)]) {
+    return;
+  }
+  const double way_m = jump_.distance_m(n);
+  const Eta rate = eta_of(mass, way_m);
+  jump_within_m_ = std::min(jump_within_m_, 2.0 * way_m);
+  if (jump_to_ < 0 || rate > jump_rate_) {
+    jump_to_ = n;
+    jump_rate_ = rate;
+  }
+}
+
+// One edge of the node after the other.
 int Ant::look_around(int rows) noexcept {
   int work = 1;
-  for (; around_edge_ < world_.graph.end_edge(around_) && work <= rows; ++around_edge_) {
-    if (in(world_.graph.open_to(around_edge_), agent_) &&
-        shows_something_new(world_.sight.along_edge(agent_, around_edge_), work)) {
-      const Edge e = around_edge_;
-      go_to(around_);
-      // Last edge first: this one comes after the way to its node.
-      if (route_.push_back(e)) {
-        std::rotate(route_.begin(), route_.end() - 1, route_.end());
+  while (work <= rows) {
+    if (!walk_.done()) {
+      if (finds_new(rows, work)) {
+        go_to(jump_node_, jump_edge_);
+        return work;
       }
+    } else if (++jump_edge_ == world_.graph.end_edge(jump_node_)) {
+      phase_ = Phase::kJump;
       return work;
+    } else if (in(world_.graph.open_to(jump_edge_), agent_)) {
+      walk_.begin(world_.sight.along_edge(agent_, jump_edge_));
     }
-  }
-  if (around_edge_ == world_.graph.end_edge(around_)) {
-    phase_ = Phase::kJump;
   }
   return work;
 }
 
-void Ant::go_to(Node n) noexcept {
+// Looks on along the walk, up to the first row that shows something new.
+bool Ant::finds_new(int rows, int& work) noexcept {
+  while (!walk_.done() && work <= rows) {
+    const auto [swath, words, ends_swath] = walk_.next(world_.sight, rows - work + 1);
+    work += work::rows_searched(swath.rows);
+    if (seen_.any_new(swath, words)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+void Ant::go_to(Node n, Edge then) noexcept {
   route_.clear();
+  if (then >= 0) {
+    (void)route_.push_back(then);
+  }
   for (Node step = n; jump_.edge_to(step) >= 0; step = jump_.before(step)) {
     (void)route_.push_back(jump_.edge_to(step));
   }
@@ -293,31 +349,34 @@ void Ant::retire() noexcept {
 }
 
 void Ant::begin_move() noexcept {
-  swath_ = 0;
-  row_ = 0;
+  walk_.begin(world_.sight.along_edge(agent_, route_.back()));
   shown_ = Mass{};
   phase_ = Phase::kMove;
+  if (route_.size() == 1) {
+    prefetch_next_choice(world_.graph.head(route_.back()));
+  }
+}
+
+// While the ant looks along an edge, what it will choose from there comes nearer: on a large graph that is far away.
+void Ant::prefetch_next_choice(Node n) const noexcept {
+  const Edge first = world_.graph.first_edge(n);
+  const int count = world_.graph.end_edge(n) - first;
+  world_.graph.prefetch_choice(first, count);
+  trails_.prefetch_choice(agent_, first, count);
+  world_.sight.prefetch_moves(agent_, first, count);
 }
 
 int Ant::move(int rows) noexcept {
   const Edge e = route_.back();
-  const SightView view = world_.sight.along_edge(agent_, e);
   const int points = world_.sight.points(e);
   int work = 1;
-  while (swath_ < view.size() && work <= rows) {
-    const Swath& swath = view.at(swath_);
-    Swath part = swath;
-    part.first_row += row_;
-    part.rows = static_cast<std::int16_t>(std::min<int>(swath.rows - row_, rows - work + 1));
-    work += look(part, world_.sight.words(swath) + row_, view.reversed ? points - swath.last_point : swath.first_point,
-                 view.reversed ? points - swath.first_point : swath.last_point);
-    row_ += part.rows;
-    if (row_ == swath.rows) {
-      row_ = 0;
-      ++swath_;
-    }
+  while (!walk_.done() && work <= rows) {
+    const ViewWalk::Part part = walk_.next(world_.sight, rows - work + 1);
+    const Swath& swath = part.swath;
+    work += look(swath, part.words, walk_.reversed() ? points - swath.last_point : swath.first_point,
+                 walk_.reversed() ? points - swath.first_point : swath.last_point);
   }
-  if (swath_ == view.size()) {
+  if (walk_.done()) {
     end_move(e);
     work += work::kMoveEnd;
   }
@@ -344,7 +403,8 @@ int Ant::look(const Swath& part, const std::uint64_t* words, int first_point, in
       });
     });
   }
-  const int work = work::rows_shown(part.rows, cells);
+  const int work = work::rows_shown(part.rows, cells) +
+                   (heuristic_ == Heuristic::kMts ? work::tiles_taken(cells, sectors_.priors()) : 0);
   if (gained <= Mass{}) {
     return work;
   }

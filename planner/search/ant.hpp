@@ -31,20 +31,21 @@ struct AntParameters {
 class Ant {
  public:
   Ant(const World& world, const Trails& trails) noexcept
-      : world_(world), trails_(trails), sectors_(world), unseen_mass_(world), lookahead_(world) {}
+      : world_(world), trails_(trails), sectors_(world), unseen_mass_(world), lookahead_(world), shown_there_(world) {}
 
-  /// Puts every agent on its start. `beta` is for eta_MTS; eta_TSP is in the trails. Cost: the seen map's bytes.
+  /// Puts every agent on its start. `beta` is for eta_MTS; eta_TSP is in the trails. Cost: constant; the seen map comes
+  /// in parts.
   void start(const AntParameters& parameters, Heuristic heuristic, int beta) noexcept;
 
-  /// Does a part of the work: a choice, up to `rows` rows of a move or of a look
-  /// ahead, one node of a jump search; an edge's view is not cut in two there. Returns the work done,
-  /// in units (planner.hpp). Nothing when done.
+  /// Does a part of the work: a choice, up to `rows` rows of a move or of a look ahead, one node of a jump search.
+  /// Returns the work done, in units (planner.hpp). Nothing when done.
   int advance(Rng& rng, int rows) noexcept;
 
   [[nodiscard]] bool done() const noexcept { return phase_ == Phase::kDone; }
   /// Another mission. Cost: the cells with mass, agents times nodes.
   void open() noexcept {
     sectors_.open();
+    lookahead_.open();
     jump_.open(world_.graph);
   }
 
@@ -57,31 +58,48 @@ class Ant {
   [[nodiscard]] CostInterval cost() const noexcept;
 
  private:
-  enum class Phase : std::uint8_t { kChooseAgent, kWeigh, kLookAhead, kChooseNode, kJump, kLookAround, kMove, kDone };
+  enum class Phase : std::uint8_t {
+    kClear,
+    kLookFromStarts,
+    kChooseAgent,
+    kWeigh,
+    kLookAhead,
+    kChooseNode,
+    kJump,
+    kLookAtNode,
+    kLookAround,
+    kMove,
+    kDone
+  };
   struct Move {
     Seconds end_s{};
     Mass shown{};  // what it showed first
   };
 
+  int clear(int rows) noexcept;
+  int look_from_starts(int rows) noexcept;
   int choose_agent(Rng& rng) noexcept;
   int weigh(int rows) noexcept;
   [[nodiscard]] Visibility visibility(Edge e) const noexcept;
   int look_ahead(int rows) noexcept;
   int choose_node(Rng& rng) noexcept;
-  int jump() noexcept;
+  int jump(int rows) noexcept;
   void begin_jump() noexcept;
-  int judge_jump(Node n) noexcept;
+  [[nodiscard]] bool judges_jumps() const noexcept { return parameters_.looks_ahead > 0 && !second_wind_; }
+  int look_at_node(int rows) noexcept;
+  void judge_jump(Node n) noexcept;
   int look_around(int rows) noexcept;
-  void go_to(Node n) noexcept;
+  void go_to(Node n, Edge then = -1) noexcept;
   int move(int rows) noexcept;
   void begin_move() noexcept;
+  void prefetch_next_choice(Node n) const noexcept;
   int look(const Swath& part, const std::uint64_t* words, int first_point, int last_point) noexcept;
   void end_move(Edge e) noexcept;
   void retire() noexcept;
   [[nodiscard]] bool may_share(int other, const EdgePath& path, std::size_t i, Edge e) const noexcept;
   void visit(Node n) noexcept { visited_[index(n)] = ant_number_; }
   [[nodiscard]] bool visited(Node n) const noexcept { return visited_[index(n)] == ant_number_; }
-  [[nodiscard]] bool shows_something_new(const SightView& view, int& work) const noexcept;
+  [[nodiscard]] bool finds_new(int rows, int& work) noexcept;
 
   const World world_;
   const Trails& trails_;
@@ -96,6 +114,7 @@ class Ant {
   std::uint32_t ant_number_ = 0;
   std::array<std::uint32_t, limits::kNodes> visited_{};
   SeenMap seen_;
+  int cleared_ = 0;  // bytes of it
   Mass unseen_{};
   Mass low_steps_{};  // sum of p (k - 1), each cell at the earliest and the latest that its swath allows
   Mass high_steps_{};
@@ -107,20 +126,20 @@ class Ant {
   std::array<EdgePath, limits::kAgents> paths_{};
   std::array<std::array<Move, limits::kWaypoints>, limits::kAgents> moves_{};
 
-  int agent_ = 0;                             // whose turn it is
-  StaticVector<Edge, limits::kNodes> route_;  // of this turn, last edge first: one edge, or a jump's
-  std::size_t swath_ = 0;                     // of the edge under way
-  int row_ = 0;
-  Mass shown_{};
+  int agent_ = 0;                                      // whose turn it is
+  StaticVector<Edge, limits::kNodes> route_;           // of this turn, last edge first: one edge, or a jump's
+  ViewWalk walk_;                                      // of the edge under way, or where something new is looked for
+  Mass shown_{};                                       // by that edge
   std::array<Edge, limits::kNodes + 1> candidates_{};  // of a choice, and room for one that is none
   std::array<Weight, limits::kNodes> weights_{};       // their running sums
   JumpSearch jump_;
+  Node jump_node_ = -1;  // looked at, or the edges from it
+  Edge jump_edge_ = -1;  // one of them
+  UnseenMass shown_there_;
   Node jump_to_ = -1;  // who looks ahead: the best so far
   Eta jump_rate_{};
   double jump_within_m_ = 0.0;
   bool second_wind_ = false;  // all were done once, and what is left is seen to
-  Node around_ = -1;          // node whose edges are looked along, and the next of them
-  Edge around_edge_ = -1;
 };
 
 }  // namespace ivo::planner

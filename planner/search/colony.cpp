@@ -59,7 +59,7 @@ int Colony::begin_ant() noexcept {
     ant.patience = kScouts[index(generation_)].patience;
   }
   ant_.start(ant, parameters_.heuristic, parameters_.beta);
-  return 16 + work::bytes(world_.belief.without_mass.bytes());
+  return 16;
 }
 
 int Colony::advance(int rows) noexcept {

@@ -24,14 +24,13 @@ int EdgeEvents::prepare(int agent, Node tail, Edge e, int rows) noexcept {
   }
   int work = 0;
   if (making_ != slot(agent, e)) {
-    begin(agent, tail, e);
-    ++work;
+    work += begin(agent, tail, e);
   }
   const SightView view = sight_.along_edge(agent, e);
   while (swath_ < view.size() && work < rows) {
     const Swath& swath = view.at(swath_);
-    for (; row_ < swath.rows && work < rows; ++row_) {
-      work += add_row(swath, row_);
+    while (row_ < swath.rows && work < rows) {
+      row_ += add_row(swath, rows, work) ? 1 : 0;
     }
     if (row_ == swath.rows) {
       row_ = 0;
@@ -56,7 +55,7 @@ int EdgeEvents::most(int agent, Edge e) const noexcept {
   return most;
 }
 
-void EdgeEvents::begin(int agent, Node tail, Edge e) noexcept {
+int EdgeEvents::begin(int agent, Node tail, Edge e) noexcept {
   const SightView view = sight_.along_edge(agent, e);
   if (making_ != kNone) {
     taken_.open(cells_.columns(), cells_.rows());  // another edge was left half made
@@ -78,9 +77,16 @@ void EdgeEvents::begin(int agent, Node tail, Edge e) noexcept {
        std::min(cells_.rows() - 1, static_cast<int>((std::max(tail_.y_m, end_.y_m) + radius_m_) / size) + 1)});
   swath_ = 0;
   row_ = 0;
+  point_ = kNotBegun;
+  int rows = 0;
+  for (const Swath& swath : view.swaths) {
+    rows += swath.rows;
+  }
   for (const Swath& swath : sight_.from_node(agent, tail).swaths) {
     taken_.look(swath, sight_.words(swath), [](int, std::uint64_t) {});
+    rows += swath.rows;
   }
+  return 1 + work::rows_opened(rows);
 }
 
 void EdgeEvents::make_room(int size) noexcept {
@@ -104,49 +110,70 @@ void EdgeEvents::make_room(int size) noexcept {
   }
 }
 
-// A cell of this swath that nothing earlier took is first seen from one of the swath's points.
-int EdgeEvents::add_row(const Swath& swath, int row) noexcept {
-  int work = 2;
+// A cell of this row that nothing earlier took is first seen from one of the swath's points. False when it has to go
+// on.
+bool EdgeEvents::add_row(const Swath& swath, int rows, int& work) noexcept {
   const int first = reversed_ ? points_ - swath.last_point : swath.first_point;
   const int last = reversed_ ? points_ - swath.first_point : swath.last_point;
-  const Swath one{swath.first_row + row, swath.first_byte, 0, 1, 0, 0};
-  taken_.look(one, sight_.words(swath) + row, [&](int at_row, std::uint64_t fresh) {
-    for_each_bit(fresh, [&](int bit) {
-      const Cell c = taken_.cell(at_row, swath.first_byte, bit);
-      const int column = 8 * swath.first_byte + bit;
-      pool_[index(made_first_ + made_++)] = SightEvent(c, first_point(column, at_row, first, last, work));
-    });
-  });
-  return work;
+  const int row = swath.first_row + row_;
+  const std::uint64_t taken = taken_.window(row, swath.first_byte);
+  const std::uint64_t fresh = sight_.words(swath)[row_] & ~taken;
+  std::uint64_t left = fresh;
+  work += 2;
+  // At least a cell's one point, whatever is left of the part.
+  for (bool more = true; more && left != 0; more = work < rows) {
+    const int bit = std::countr_zero(left);
+    const int column = 8 * swath.first_byte + bit;
+    if (!find_first_point(column, row, first, last, rows, work)) {
+      break;
+    }
+    pool_[index(made_first_ + made_++)] = SightEvent(taken_.cell(row, swath.first_byte, bit), point_);
+    point_ = kNotBegun;
+    left &= left - 1;
+  }
+  taken_.set_window(row, swath.first_byte, taken | (fresh & ~left));
+  return left == 0;
 }
 
-int EdgeEvents::first_point(int column, int row, int from, int to, int& work) const noexcept {
-  // Where the circle around the cell meets the line says where to begin; the rule decides.
-  const Point c = cells_.centre(column, row);
-  const double dx = end_.x_m - tail_.x_m;
-  const double dy = end_.y_m - tail_.y_m;
-  const double length2 = dx * dx + dy * dy;
-  const double along = (c.x_m - tail_.x_m) * dx + (c.y_m - tail_.y_m) * dy;
-  const double across = (c.x_m - tail_.x_m) * dy - (c.y_m - tail_.y_m) * dx;
-  const double half2 = radius_m_ * radius_m_ * length2 - across * across;
-  const double share = length2 > 0.0 ? (along - std::sqrt(std::max(0.0, half2))) / length2 : 0.0;
-  int k = std::clamp(static_cast<int>(share * points_) - 1, from, to);
-  for (; k < to; ++k) {
-    const Point p = sight_point(tail_, end_, k, points_);
+bool EdgeEvents::find_first_point(int column, int row, int from, int to, int rows, int& work) noexcept {
+  if (point_ == kNotBegun) {
+    ++work;
+    // Where the circle around the cell meets the line says where to begin; the rule decides.
+    const Point c = cells_.centre(column, row);
+    const double dx = end_.x_m - tail_.x_m;
+    const double dy = end_.y_m - tail_.y_m;
+    const double length2 = dx * dx + dy * dy;
+    const double along = (c.x_m - tail_.x_m) * dx + (c.y_m - tail_.y_m) * dy;
+    const double across = (c.x_m - tail_.x_m) * dy - (c.y_m - tail_.y_m) * dx;
+    const double half2 = radius_m_ * radius_m_ * length2 - across * across;
+    const double share = length2 > 0.0 ? (along - std::sqrt(std::max(0.0, half2))) / length2 : 0.0;
+    point_ = std::clamp(static_cast<int>(share * points_) - 1, from, to);
+  }
+  while (point_ < to) {
     work += 2;
-    if (!within_radius(cells_, p, column, row, radius_m_)) {
-      continue;
+    if (sees(point_, column, row, work)) {
+      return true;
     }
-    if (open_) {
-      break;
-    }
-    work += work::ray(std::abs(column - static_cast<int>(p.x_m / cells_.cell_m())),
-                      std::abs(row - static_cast<int>(p.y_m / cells_.cell_m())));
-    if (line_of_sight(cells_, p, cells_.at(column, row))) {
-      break;
+    ++point_;
+    if (work >= rows) {
+      return false;
     }
   }
-  return k;
+  return true;
+}
+
+bool EdgeEvents::sees(int point, int column, int row, int& work) const noexcept {
+  const Point p = sight_point(tail_, end_, point, points_);
+  if (!within_radius(cells_, p, column, row, radius_m_)) {
+    return false;
+  }
+  if (open_) {
+    return true;
+  }
+  int walked = 0;
+  const bool seen = line_of_sight(cells_, p, cells_.at(column, row), walked);
+  work += work::ray(walked);
+  return seen;
 }
 
 void EdgeEvents::finish(int agent, Node tail, Edge e) noexcept {

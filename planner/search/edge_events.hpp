@@ -71,10 +71,11 @@ class EdgeEvents {
     return index(sight_.layer(agent)) * limits::kEdges + index(e);
   }
   [[nodiscard]] int most(int agent, Edge e) const noexcept;
-  void begin(int agent, Node tail, Edge e) noexcept;
+  int begin(int agent, Node tail, Edge e) noexcept;
   void make_room(int size) noexcept;
-  int add_row(const Swath& swath, int row) noexcept;
-  [[nodiscard]] int first_point(int column, int row, int from, int to, int& work) const noexcept;
+  bool add_row(const Swath& swath, int rows, int& work) noexcept;
+  bool find_first_point(int column, int row, int from, int to, int rows, int& work) noexcept;
+  [[nodiscard]] bool sees(int point, int column, int row, int& work) const noexcept;
   void finish(int agent, Node tail, Edge e) noexcept;
 
   const Cells& cells_;
@@ -101,7 +102,9 @@ class EdgeEvents {
   bool open_ = false;  // nothing near can hide anything
   std::size_t swath_ = 0;
   int row_ = 0;
-  SeenMap taken_;  // cells of the edge that have their event, or are seen from the tail
+  static constexpr int kNotBegun = -1;
+  int point_ = kNotBegun;  // asked next, of the cell under way
+  SeenMap taken_;          // cells of the edge that have their event, or are seen from the tail
 };
 
 }  // namespace ivo::planner

@@ -69,6 +69,7 @@ void JumpSearch::begin_search() noexcept {
   for (int i = 0; i < touched_count_; ++i) {
     slot_[index(touched_[index(i)])] = kOutside;
   }
+  work_ += touched_count_ / 8;
   searching_ = true;
   followed_ = 0;
   touched_[0] = from_;

@@ -15,11 +15,13 @@ class Lookahead {
  public:
   static constexpr int kMostMoves = 3;
 
-  explicit Lookahead(const World& world) noexcept : world_(world) {}
+  explicit Lookahead(const World& world) noexcept : world_(world), unseen_(world) {}
 
+  /// Another mission.
+  void open() noexcept;
   /// `patience`: a mass seen as late as an agent takes for so many of the graph's spacings counts 1/e of one seen now.
   /// Moves from 1 to kMostMoves.
-  void open(int moves, double patience) noexcept;
+  void start(int moves, double patience) noexcept;
 
   /// An agent looks from a node, `from_s` after the start of nothing: times are relative.
   void begin(int agent, Node here) noexcept;
@@ -57,16 +59,26 @@ class Lookahead {
     std::uint64_t word = 0;
   };
 
+  enum class Task : std::uint8_t { kWeigh, kFollow, kUndo };
+
   void push(Node here, Seconds from_s) noexcept;
+  int weigh(const SeenMap& seen, int rows) noexcept;
   void take_option(Edge e, Mass mass) noexcept;
-  int follow(SeenMap& seen, Edge e, Seconds from_s, Mass& value) noexcept;
-  int end_option(SeenMap& seen) noexcept;
+  void begin_option() noexcept;
+  int follow(SeenMap& seen, int rows) noexcept;
+  int undo(SeenMap& seen, int rows) noexcept;
+  void end_option() noexcept;
   [[nodiscard]] Mass weighted(Mass mass, Seconds time_s) const noexcept;
 
   const World& world_;
   int agent_ = 0;
   int moves_ = 1;
   int depth_ = -1;  // of the level under way
+  Task task_ = Task::kWeigh;
+  UnseenMass unseen_;
+  bool weighing_ = false;  // an edge is under way
+  ViewWalk walk_;          // of the option that is followed
+  Mass shown_{};           // by its swath under way
   std::array<Level, kMostMoves> levels_{};
   std::array<Undo, kUndo> undo_{};
   int undo_count_ = 0;

@@ -111,7 +111,7 @@ int PathScorer::advance(int rows) noexcept {
     }
   }
   if (phase_ == Phase::kSum && work <= rows) {
-    const int count = std::min((rows - work) / 4 + 1, belief_->mass_cell_count - cell_);
+    const int count = std::min((rows - work) / 3 + 1, belief_->mass_cell_count - cell_);
     expected_.add(*belief_, sightings_, cell_, count);
     cell_ += count;
     work += work::cells_summed(count, belief_->has_sub_priors);
@@ -187,11 +187,11 @@ std::uint64_t PathScorer::visible(std::uint64_t word, int row, int byte, int& wo
   std::uint64_t hidden = 0;
   for_each_bit(word, [&](int bit) {
     const int column = 8 * byte + bit;
-    work += work::ray(std::abs(column - static_cast<int>(eye_.x_m / cells_->cell_m())),
-                      std::abs(row - static_cast<int>(eye_.y_m / cells_->cell_m())));
-    if (!line_of_sight(*cells_, eye_, cells_->at(column, row))) {
+    int walked = 0;
+    if (!line_of_sight(*cells_, eye_, cells_->at(column, row), walked)) {
       hidden |= std::uint64_t{1} << static_cast<unsigned>(bit);
     }
+    work += work::ray(walked);
   });
   return word & ~hidden;
 }

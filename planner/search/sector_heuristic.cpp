@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "planner/numeric/exponential.hpp"
+#include "planner/search/work.hpp"
 
 namespace ivo::planner {
 namespace {
@@ -43,10 +44,13 @@ void SectorHeuristic::open() noexcept {
   }
 }
 
-void SectorHeuristic::start() noexcept {
+int SectorHeuristic::start_tiles(int rows) noexcept {
+  const int count = std::min(rows * work::kTilesCopied, tiles_ - started_tiles_);
   for (int m = 0; m < priors_; ++m) {
-    std::copy_n(whole_[index(m)].begin(), tiles_, unseen_[index(m)].begin());
+    std::copy_n(whole_[index(m)].begin() + started_tiles_, count, unseen_[index(m)].begin() + started_tiles_);
   }
+  started_tiles_ += count;
+  return 1 + count * priors_ / work::kTilesCopied;
 }
 
 void SectorHeuristic::take(Cell c) noexcept {
@@ -76,7 +80,7 @@ int SectorHeuristic::bin_of(std::int64_t dx, std::int64_t dy) noexcept {
   return dy >= 0 ? 2 * kQuarter - 1 - part : 2 * kQuarter + part;
 }
 
-void SectorHeuristic::begin(int agent, Node here) noexcept {
+int SectorHeuristic::begin(int agent, Node here) noexcept {
   const Graph& graph = world_.graph;
   prior_ = priors_ > 1 ? agent : 0;
   first_edge_ = graph.first_edge(here);
@@ -94,6 +98,7 @@ void SectorHeuristic::begin(int agent, Node here) noexcept {
     take_in(way, index(i));
   }
   tile_ = 0;
+  return work::sectors_opened(neighbours_);
 }
 
 // The bins between the two sides of the sector: the way turned by 22.5 degrees either side.
@@ -110,46 +115,53 @@ void SectorHeuristic::take_in(const Way& way, std::size_t neighbour) noexcept {
   }
 }
 
-int SectorHeuristic::advance(int tiles) noexcept {
-  const int end = std::min(tiles_, tile_ + tiles);
-  const int work = end - tile_ + 1;
-  for (; tile_ < end; ++tile_) {
+int SectorHeuristic::advance(int rows) noexcept {
+  constexpr int kUnitsATile = kTile * kUnitsACell;
+  const int first = tile_;
+  int ways = 0;
+  for (; tile_ < tiles_ && work::tiles_weighed(tile_ - first, ways) < rows; ++tile_) {
     const Mass mass = unseen_[index(prior_)][index(tile_)];
-    if (mass <= Mass{}) {
-      continue;
-    }
-    constexpr int kUnitsATile = kTile * kUnitsACell;
-    const std::int64_t dx = (tile_ % columns_) * kUnitsATile + kUnitsATile / 2 - here_x_;
-    const std::int64_t dy = (tile_ / columns_) * kUnitsATile + kUnitsATile / 2 - here_y_;
-    const auto& sectors = in_bin_[index(bin_of(dx, dy))];
-    for (std::size_t half = 0; half < sectors.size(); ++half) {
-      for_each_bit(sectors[half], [&](int bit) {
-        const std::size_t i = half * 64 + static_cast<std::size_t>(bit);
-        const Way& way = ways_[i];
-        const std::int64_t dot = dx * way.dx + dy * way.dy;
-        const std::int64_t cross = dx * way.dy - dy * way.dx;
-        if (dot <= 0 || std::abs(cross) * kTanScale > dot * kTan) {
-          return;
-        }
-        const std::int64_t ex = dx - way.dx;
-        const std::int64_t ey = dy - way.dy;
-        const std::int64_t squared = (ex * ex + ey * ey) * 32 / spacing_units2_;
-        const std::int32_t discount =
-            squared < kDiscounts
-                ? near_discount_[static_cast<std::size_t>(squared)]
-                : far_discount_[static_cast<std::size_t>(std::min<std::int64_t>(squared / 64, kDiscounts - 1))];
-#if IVO_PLANNER_FIXED
-        sums_[i] += static_cast<std::uint64_t>(mass.raw()) * static_cast<std::uint64_t>(discount);
-#else
-        sums_[i] += mass * discount * (1.0 / kOne);
-#endif
-      });
+    if (mass > Mass{}) {
+      ways += weigh(mass, (tile_ % columns_) * kUnitsATile + kUnitsATile / 2 - here_x_,
+                    (tile_ / columns_) * kUnitsATile + kUnitsATile / 2 - here_y_);
     }
   }
+  const int work = 1 + work::tiles_weighed(tile_ - first, ways);
   if (tile_ == tiles_) {
     close();
   }
   return work;
+}
+
+// Unseen mass at (dx, dy) from here. How many ways it was looked at for.
+int SectorHeuristic::weigh(Mass mass, std::int64_t dx, std::int64_t dy) noexcept {
+  const auto& sectors = in_bin_[index(bin_of(dx, dy))];
+  int ways = 0;
+  for (std::size_t half = 0; half < sectors.size(); ++half) {
+    ways += std::popcount(sectors[half]);
+    for_each_bit(sectors[half], [&](int bit) {
+      const std::size_t i = half * 64 + static_cast<std::size_t>(bit);
+      const Way& way = ways_[i];
+      const std::int64_t dot = dx * way.dx + dy * way.dy;
+      const std::int64_t cross = dx * way.dy - dy * way.dx;
+      if (dot <= 0 || std::abs(cross) * kTanScale > dot * kTan) {
+        return;
+      }
+      const std::int64_t ex = dx - way.dx;
+      const std::int64_t ey = dy - way.dy;
+      const std::int64_t squared = (ex * ex + ey * ey) * 32 / spacing_units2_;
+      const std::int32_t discount =
+          squared < kDiscounts
+              ? near_discount_[static_cast<std::size_t>(squared)]
+              : far_discount_[static_cast<std::size_t>(std::min<std::int64_t>(squared / 64, kDiscounts - 1))];
+#if IVO_PLANNER_FIXED
+      sums_[i] += static_cast<std::uint64_t>(mass.raw()) * static_cast<std::uint64_t>(discount);
+#else
+      sums_[i] += mass * discount * (1.0 / kOne);
+#endif
+    });
+  }
+  return ways;
 }
 
 void SectorHeuristic::close() noexcept {

@@ -24,15 +24,19 @@ class SectorHeuristic {
 
   /// Another mission. Cost: the cells with mass.
   void open() noexcept;
-  /// A new ant: nothing taken. Cost: the tiles.
-  void start() noexcept;
+  /// A new ant: nothing taken, once start_tiles() has been called until it has started.
+  void start() noexcept { started_tiles_ = 0; }
+  /// About as many tiles as are a part of `rows` rows. Returns the work done.
+  int start_tiles(int rows) noexcept;
+  [[nodiscard]] bool started() const noexcept { return started_tiles_ == tiles_; }
   /// The team has seen `c`.
   void take(Cell c) noexcept;
+  [[nodiscard]] int priors() const noexcept { return priors_; }
 
-  /// An agent looks around from a node. Cost: its edges.
-  void begin(int agent, Node here) noexcept;
-  /// Up to `tiles` tiles. Returns the work done.
-  int advance(int tiles) noexcept;
+  /// An agent looks around from a node. Cost: its edges. Returns the work done.
+  int begin(int agent, Node here) noexcept;
+  /// A part of about `rows` rows. Returns the work done.
+  int advance(int rows) noexcept;
   [[nodiscard]] bool done() const noexcept { return tile_ == tiles_; }
   /// When done: eta^beta of an edge of the node, over that of its best edge. Cost: beta.
   [[nodiscard]] Visibility visibility(Edge e, int beta) const noexcept;
@@ -56,6 +60,7 @@ class SectorHeuristic {
   };
 
   void take_in(const Way& way, std::size_t neighbour) noexcept;
+  int weigh(Mass mass, std::int64_t dx, std::int64_t dy) noexcept;
   [[nodiscard]] static int bin_of(std::int64_t dx, std::int64_t dy) noexcept;
   [[nodiscard]] std::int32_t units(double metres) const noexcept;
   void close() noexcept;
@@ -72,6 +77,7 @@ class SectorHeuristic {
   std::array<std::int32_t, kDiscounts> far_discount_{};  // likewise, 2 h^2 apart
   std::int64_t spacing_units2_ = 1;
 
+  int started_tiles_ = 0;
   int tile_ = 0;
   int prior_ = 0;
   Edge first_edge_ = 0;

@@ -291,9 +291,10 @@ std::uint64_t SegmentPool::seen_of(std::uint64_t word, const Part& part, std::in
       if (!within_radius(cells, from, column, row, radius_m)) {
         return;
       }
-      work += work::ray(std::abs(column - static_cast<int>(from.x_m / cells.cell_m())),
-                        std::abs(row - static_cast<int>(from.y_m / cells.cell_m())));
-      if (line_of_sight(cells, from, cells.at(column, row))) {
+      int walked = 0;
+      const bool seen = line_of_sight(cells, from, cells.at(column, row), walked);
+      work += work::ray(walked);
+      if (seen) {
         kept |= std::uint64_t{1} << static_cast<unsigned>(bit);
       }
     });

@@ -60,6 +60,9 @@ int TourScorer::clear(int rows) noexcept {
 }
 
 int TourScorer::replay(int rows) noexcept {
+  if (!from_start_.done()) {
+    return look_from_start(rows);
+  }
   if (edge_ == tour_->paths[index(agent_)].size()) {
     begin_agent(agent_ + 1);
     return 1;
@@ -114,17 +117,23 @@ void TourScorer::begin_agent(int agent) noexcept {
     phase_ = Phase::kSum;
     return;
   }
-  for (const Swath& swath : world_.sight.from_node(agent, agent).swaths) {
-    const std::uint64_t* const words = world_.sight.words(swath);
-    for (int i = 0; i < swath.rows; ++i) {
-      const Cell first = world_.cells.at(8 * swath.first_byte, swath.first_row + i);
-      for_each_bit(words[i], [&](int bit) { (void)sightings_.see(first + bit, agent, Seconds{}); });
-    }
+  from_start_.begin(world_.sight.from_node(agent, agent));
+}
+
+int TourScorer::look_from_start(int rows) noexcept {
+  int work = 1;
+  while (!from_start_.done() && work <= rows) {
+    const auto [swath, words, ends_swath] = from_start_.next(world_.sight, 1);
+    const Cell first = world_.cells.at(8 * swath.first_byte, swath.first_row);
+    const int taken = sightings_.taken();
+    for_each_bit(words[0], [&](int bit) { (void)sightings_.see(first + bit, agent_, Seconds{}); });
+    work += 1 + work::events_replayed(std::popcount(words[0]), sightings_.taken() - taken);
   }
+  return work;
 }
 
 int TourScorer::sum(int rows) noexcept {
-  const int count = std::min(rows / 4 + 1, world_.belief.mass_cell_count - row_);
+  const int count = std::min(rows / 3 + 1, world_.belief.mass_cell_count - row_);
   expected_.add(world_.belief, sightings_, row_, count);
   row_ += count;
   if (row_ == world_.belief.mass_cell_count) {

@@ -6,6 +6,7 @@
 #include "planner/search/first_sightings.hpp"
 #include "planner/search/tour.hpp"
 #include "planner/search/world.hpp"
+#include "planner/world/view_walk.hpp"
 
 namespace ivo::planner {
 
@@ -36,6 +37,7 @@ class TourScorer {
 
   int clear(int rows) noexcept;
   int replay(int rows) noexcept;
+  int look_from_start(int rows) noexcept;
   int time_points(Edge e) noexcept;
   int sum(int rows) noexcept;
   void begin_agent(int agent) noexcept;
@@ -50,6 +52,7 @@ class TourScorer {
   bool to_end_ = false;
   Phase phase_ = Phase::kDone;
   int agent_ = 0;
+  ViewWalk from_start_;
   std::size_t edge_ = 0;
   Node at_ = 0;
   Seconds time_s_{};

@@ -7,6 +7,7 @@
 
 #include "config/limits.hpp"
 #include "planner/numeric/index.hpp"
+#include "planner/numeric/prefetch.hpp"
 #include "planner/numeric/roulette.hpp"
 #include "planner/world/graph.hpp"
 
@@ -24,6 +25,12 @@ class Trails {
   /// The same with a heuristic of the moment, eta^beta.
   [[nodiscard]] Weight attraction(int agent, Edge e, Visibility visibility) const noexcept {
     return weight_of(tau_[index(agent)][index(e)], visibility);
+  }
+
+  /// Asks for what a choice among edges `first` to `first + count - 1` reads.
+  void prefetch_choice(int agent, Edge first, int count) const noexcept {
+    prefetch(tau_[index(agent)].data() + first, count);
+    prefetch(visibility_.data() + first, count);
   }
 
   /// tau_max = 1 / (rho C_best) and tau_min below it; C in seconds, at least 1.

@@ -7,13 +7,14 @@
 
 namespace ivo::planner {
 
-Mass unseen_mass(const World& world, int agent, const SightView& view, const SeenMap& seen, int& work) noexcept {
-  const Belief& belief = world.belief;
+int UnseenMass::advance(const SeenMap& seen, int rows) noexcept {
+  const Belief& belief = world_.belief;
   const bool alike = !belief.has_sub_priors && belief.alike > Mass{};
-  const auto& mass = belief.has_sub_priors ? belief.sub_mass[index(agent)] : belief.mass;
+  const auto& mass = belief.has_sub_priors ? belief.sub_mass[index(agent_)] : belief.mass;
   Mass unseen{};
-  for (const Swath& swath : view.swaths) {
-    const std::uint64_t* const words = world.sight.words(swath);
+  int work = 0;
+  while (!walk_.done() && work < rows) {
+    const auto [swath, words, ends_swath] = walk_.next(world_.sight, rows - work);
     int cells = 0;
     for (int i = 0; i < swath.rows; ++i) {
       const std::uint64_t fresh = words[i] & ~seen.window(swath.first_row + i, swath.first_byte);
@@ -29,7 +30,8 @@ Mass unseen_mass(const World& world, int agent, const SightView& view, const See
     }
     work += work::rows_shown(swath.rows, cells);
   }
-  return unseen;
+  mass_ += unseen;
+  return work;
 }
 
 Eta eta_of(Mass mass, double length_m) noexcept {
@@ -46,15 +48,25 @@ void UnseenHeuristic::begin(int agent, Node here) noexcept {
   agent_ = agent;
   first_ = edge_ = world_.graph.first_edge(here);
   end_ = std::min<Edge>(world_.graph.end_edge(here), first_ + kNeighbours);
+  weighing_ = false;
   best_ = Eta{};
   etas_.fill(Eta{});
 }
 
-void UnseenHeuristic::weigh(const SeenMap& seen, int& work) noexcept {
-  const Eta eta = eta_of(unseen_mass(world_, agent_, world_.sight.along_edge(agent_, edge_), seen, work),
-                         world_.graph.length_m(edge_));
-  etas_[index(edge_ - first_)] = eta;
-  best_ = std::max(best_, eta);
+int UnseenHeuristic::weigh(const SeenMap& seen, int rows) noexcept {
+  if (!weighing_) {
+    shown_.begin(agent_, world_.sight.along_edge(agent_, edge_));
+    weighing_ = true;
+  }
+  const int work = shown_.advance(seen, rows);
+  if (shown_.done()) {
+    const Eta eta = eta_of(shown_.mass(), world_.graph.length_m(edge_));
+    etas_[index(edge_ - first_)] = eta;
+    best_ = std::max(best_, eta);
+    weighing_ = false;
+    ++edge_;
+  }
+  return work;
 }
 
 Visibility UnseenHeuristic::visibility(Edge e, int beta) const noexcept {

@@ -7,6 +7,7 @@
 
 #include "planner/numeric/roulette.hpp"
 #include "planner/search/world.hpp"
+#include "planner/world/view_walk.hpp"
 
 namespace ivo::planner {
 
@@ -18,15 +19,34 @@ using Eta = double;
 
 /// What a view would show an agent first, on its own sub-prior where there are any; a cell in sight of several of its
 /// swaths counts once for each: quicker than once and for all, and what stays in sight longer is no worse to choose.
-/// Adds the work done: its rows.
-[[nodiscard]] Mass unseen_mass(const World& world, int agent, const SightView& view, const SeenMap& seen,
-                               int& work) noexcept;
+class UnseenMass {
+ public:
+  explicit UnseenMass(const World& world) noexcept : world_(world) {}
+
+  void begin(int agent, const SightView& view) noexcept {
+    agent_ = agent;
+    mass_ = Mass{};
+    walk_.begin(view);
+  }
+  /// Adds up about `rows` rows (> 0) at most. Returns the work done.
+  int advance(const SeenMap& seen, int rows) noexcept;
+  [[nodiscard]] bool done() const noexcept { return walk_.done(); }
+  /// When done.
+  [[nodiscard]] Mass mass() const noexcept { return mass_; }
+
+ private:
+  const World& world_;
+  int agent_ = 0;
+  ViewWalk walk_;
+  Mass mass_{};
+};
+
 /// Mass a metre, in a unit of its own.
 [[nodiscard]] Eta eta_of(Mass mass, double length_m) noexcept;
 
 class UnseenHeuristic {
  public:
-  explicit UnseenHeuristic(const World& world) noexcept : world_(world) {}
+  explicit UnseenHeuristic(const World& world) noexcept : world_(world), shown_(world) {}
 
   /// An agent looks at the ways from a node. Cost: its edges.
   void begin(int agent, Node here) noexcept;
@@ -34,9 +54,11 @@ class UnseenHeuristic {
   template <class Wanted>
   int advance(const SeenMap& seen, int rows, Wanted&& wanted) noexcept {
     int work = 1;
-    for (; edge_ < end_ && work <= rows; ++edge_) {
-      if (wanted(edge_)) {
-        weigh(seen, work);
+    while (edge_ < end_ && work <= rows) {
+      if (!weighing_ && !wanted(edge_)) {
+        ++edge_;
+      } else {
+        work += weigh(seen, rows - work + 1);
       }
     }
     return work;
@@ -49,13 +71,15 @@ class UnseenHeuristic {
  private:
   static constexpr int kNeighbours = 128;
 
-  void weigh(const SeenMap& seen, int& work) noexcept;
+  int weigh(const SeenMap& seen, int rows) noexcept;
 
   const World& world_;
   int agent_ = 0;
   Edge first_ = 0;
   Edge edge_ = 0;  // next
   Edge end_ = 0;
+  UnseenMass shown_;
+  bool weighing_ = false;  // edge_ is under way
   Eta best_{};
   std::array<Eta, kNeighbours> etas_{};
 };

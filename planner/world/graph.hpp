@@ -10,6 +10,7 @@
 #include "config/base/static_vector.hpp"
 #include "config/limits.hpp"
 #include "planner/numeric/index.hpp"
+#include "planner/numeric/prefetch.hpp"
 #include "planner/refusal.hpp"
 #include "planner/world/polygon.hpp"
 #include "planner/world/segmented_map.hpp"
@@ -69,6 +70,11 @@ class Graph {
   [[nodiscard]] double length_m(Edge e) const noexcept { return lengths_m_[index(e)]; }
   /// Agents that may use the edge and can get to it.
   [[nodiscard]] AgentSet open_to(Edge e) const noexcept { return open_to_[index(e)]; }
+  /// Asks for what a choice among edges `first` to `first + count - 1` reads.
+  void prefetch_choice(Edge first, int count) const noexcept {
+    prefetch(heads_.data() + first, count);
+    prefetch(open_to_.data() + first, count);
+  }
   /// The edge from `a` to `b`, -1 when there is none. Cost: the logarithm of the node's edges.
   [[nodiscard]] Edge find(Node a, Node b) const noexcept;
 

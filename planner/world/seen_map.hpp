@@ -43,11 +43,13 @@ class SeenMap {
     std::memset(bytes_.data(), 0, static_cast<std::size_t>(used_));
   }
   /// As `other`. Cost: the bytes.
-  void copy(const SeenMap& other) noexcept {
+  void copy(const SeenMap& other) noexcept { copy(other, 0, other.used_); }
+  /// The same by parts: bytes `first` to `first + count - 1`; of use when all have been copied.
+  void copy(const SeenMap& other, int first, int count) noexcept {
     columns_ = other.columns_;
     stride_ = other.stride_;
     used_ = other.used_;
-    std::memcpy(bytes_.data(), other.bytes_.data(), static_cast<std::size_t>(used_));
+    std::memcpy(bytes_.data() + first, other.bytes_.data() + first, static_cast<std::size_t>(count));
   }
 
   [[nodiscard]] int stride() const noexcept { return stride_; }

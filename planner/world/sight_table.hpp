@@ -7,6 +7,7 @@
 #include <span>
 
 #include "config/limits.hpp"
+#include "planner/numeric/prefetch.hpp"
 #include "planner/refusal.hpp"
 #include "planner/world/cells.hpp"
 #include "planner/world/graph.hpp"
@@ -47,6 +48,12 @@ class SightTable {
   }
   [[nodiscard]] const std::uint64_t* words(const Swath& swath) const noexcept {
     return words_.data() + swath.first_word;
+  }
+  /// Asks for what a move along one of the edges `first` to `first + count - 1` reads first.
+  void prefetch_moves(int agent, Edge first, int count) const noexcept {
+    prefetch(edge_records_[index(layer_of_agent_[index(agent)])].data() + first, count);
+    prefetch(against_.data() + first, count);
+    prefetch(points_.data() + first, count);
   }
   /// n of visibility.hpp: the edge's last sight point.
   [[nodiscard]] int points(Edge e) const noexcept { return points_[index(e)]; }

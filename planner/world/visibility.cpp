@@ -5,7 +5,7 @@
 
 namespace ivo::planner {
 
-bool line_of_sight(const Cells& cells, Point from, Cell target) noexcept {
+bool line_of_sight(const Cells& cells, Point from, Cell target, int& walked) noexcept {
   const double u = from.x_m / cells.cell_m();
   const double v = from.y_m / cells.cell_m();
   int column = std::clamp(static_cast<int>(u), 0, cells.columns() - 1);
@@ -23,6 +23,7 @@ bool line_of_sight(const Cells& cells, Point from, Cell target) noexcept {
   double to_x = step_x > 0 ? column + 1 - u : u - column;
   double to_y = step_y > 0 ? row + 1 - v : v - row;
 
+  const int all = left_x + left_y;
   while (left_x + left_y > 0) {
     const bool in_y = left_x == 0 || (left_y > 0 && to_y * du <= to_x * dv);
     if (in_y) {
@@ -35,9 +36,11 @@ bool line_of_sight(const Cells& cells, Point from, Cell target) noexcept {
       to_x += 1.0;
     }
     if (left_x + left_y > 0 && cells.occluder(cells.at(column, row))) {
+      walked += all - left_x - left_y;
       return false;
     }
   }
+  walked += all;
   return true;
 }
 

@@ -10,8 +10,12 @@ namespace ivo::planner {
 
 /// True when no occluding cell lies between `from` and the centre of `target` on the grid walk; the cells of both do
 /// not count, and at an exact corner the walk steps in y first. `from` must lie on the grid. Cost: one look-up a cell
-/// crossed.
-[[nodiscard]] bool line_of_sight(const Cells& cells, Point from, Cell target) noexcept;
+/// crossed, as many as are added to `walked`.
+[[nodiscard]] bool line_of_sight(const Cells& cells, Point from, Cell target, int& walked) noexcept;
+[[nodiscard]] inline bool line_of_sight(const Cells& cells, Point from, Cell target) noexcept {
+  int walked = 0;
+  return line_of_sight(cells, from, target, walked);
+}
 
 /// True when the centre of `target` is within `radius_m` of `from`; the 1e-9 m^2 keep cells on the circle in.
 [[nodiscard]] inline bool within_radius(const Cells& cells, Point from, int column, int row, double radius_m) noexcept {

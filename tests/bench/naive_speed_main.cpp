@@ -16,6 +16,7 @@
 #include "firmware/tools/bench/bench_report.hpp"
 #include "firmware/tools/bench/trial.hpp"
 #include "firmware/tools/exit_status.hpp"
+#include "firmware/tools/planner_object.hpp"
 #include "firmware/tools/terminal.hpp"
 #include "tests/support/naive_planner.hpp"
 
@@ -93,7 +94,7 @@ int main(int argc, char** argv) {
   problem.colony.ants = options.ants;
 
   constexpr int kRuns = 9;  // the planner's few milliseconds are hard to measure once
-  const auto planner = std::make_unique<planner::Planner>();
+  const auto planner = firmware::make_planner();
   std::vector<double> planner_s;
   planner_s.reserve(kRuns);
   for (int run = 0; run < kRuns; ++run) {

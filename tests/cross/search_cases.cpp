@@ -97,6 +97,26 @@ void describe_sub_priors(planner::SearchProblem& problem) noexcept {
   problem.colony.seed = 20;
 }
 
+// Discs too wide for the improvement: hundreds of rows an edge.
+void describe_wide_sight(planner::SearchProblem& problem) noexcept {
+  describe_m1_two_gaussians(problem);
+  problem.cell_m = 0.25;
+  problem.graph.spacing_m = 6.0;
+  place_agents(problem, {3.0, 3.0}, {37.0, 3.0}, 1.0);
+  canvas.put(kWall, 20.0, 14.0, 20.5, 26.0);
+  for (planner::SearchAgent& agent : problem.agents) {
+    agent.sight_radius_m = 12.0;
+  }
+  problem.colony.generations = 2;
+}
+
+void describe_sectors(planner::SearchProblem& problem) noexcept {
+  describe_courtyard(problem);
+  problem.colony.profile = planner::Profile::kPaper;
+  problem.colony.heuristic = planner::Heuristic::kMts;
+  problem.colony.generations = 4;
+}
+
 struct NamedCase {
   std::string_view name;
   void (*describe)(planner::SearchProblem&) noexcept;
@@ -104,7 +124,9 @@ struct NamedCase {
 constexpr std::array<NamedCase, kCases> kAll = {{{"m1 uniform", describe_m1_uniform},
                                                  {"m1 two gaussians", describe_m1_two_gaussians},
                                                  {"courtyard", describe_courtyard},
-                                                 {"courtyard, sub-priors", describe_sub_priors}}};
+                                                 {"courtyard, sub-priors", describe_sub_priors},
+                                                 {"wide sight", describe_wide_sight},
+                                                 {"courtyard, sectors", describe_sectors}}};
 
 }  // namespace
 

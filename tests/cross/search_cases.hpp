@@ -8,7 +8,7 @@
 
 namespace ivo::cross {
 
-inline constexpr int kCases = 4;
+inline constexpr int kCases = 6;
 
 [[nodiscard]] std::string_view case_name(int number) noexcept;
 

@@ -7,6 +7,7 @@
 #include "config/limits.hpp"
 #include "firmware/tools/bench/bench.hpp"
 #include "firmware/tools/bench/trial.hpp"
+#include "firmware/tools/planner_object.hpp"
 #include "firmware/tools/terminal.hpp"
 
 namespace ivo::firmware::bench {
@@ -171,7 +172,7 @@ void add_real(planner::Planner& planner, const std::string& name, const Result<S
 }  // namespace
 
 void scale(const Options& options, Sheet& sheet) {
-  const auto planner = std::make_unique<planner::Planner>();
+  const auto planner = make_planner();
   grow(*planner, planner::Profile::kPaper, options, sheet);
   grow(*planner, planner::Profile::kFast, options, sheet);
   add_agents(*planner, options, sheet);

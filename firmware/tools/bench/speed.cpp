@@ -9,6 +9,7 @@
 #include "firmware/tools/bench/bench.hpp"
 #include "firmware/tools/bench/neighbour.hpp"
 #include "firmware/tools/bench/trial.hpp"
+#include "firmware/tools/planner_object.hpp"
 
 namespace ivo::firmware::bench {
 namespace {
@@ -58,7 +59,7 @@ void add_naive(const Case& c, const std::string& scene, bool quick, Sheet& sheet
 }  // namespace
 
 void speed(const Options& options, Sheet& sheet) {
-  const auto planner = std::make_unique<planner::Planner>();
+  const auto planner = make_planner();
   const int runs = options.quick ? 2 : 9;
   for (const Case& c : kCases) {
     Result<Scene> scene = paper_scene(c.map, PaperPrior::kUniform, 3.5);

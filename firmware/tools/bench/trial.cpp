@@ -82,7 +82,7 @@ Result<Found> search_to_end(planner::Planner& planner, const planner::SearchProb
 Cores::Cores() {
   const unsigned cores = std::clamp(std::thread::hardware_concurrency(), 1U, 2U);
   for (unsigned i = 0; i < cores; ++i) {
-    planners_.push_back(std::make_unique<planner::Planner>());
+    planners_.push_back(make_planner());
   }
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "firmware/tools/bench/scenes.hpp"
+#include "firmware/tools/planner_object.hpp"
 #include "planner/search/planner.hpp"
 
 namespace ivo::firmware::bench {
@@ -39,7 +40,7 @@ class Cores {
   [[nodiscard]] planner::Planner& first() { return *planners_.front(); }
 
  private:
-  std::vector<std::unique_ptr<planner::Planner>> planners_;
+  std::vector<std::unique_ptr<planner::Planner, PlannerDeleter>> planners_;
 };
 
 }  // namespace ivo::firmware::bench

@@ -141,7 +141,8 @@ TEST(Lookahead, TakesTheFirstMoveOfTheBestSequence) {
     SeenCells cells(index(world.cells.count()));
     wander(world, agent, random, here, *seen, cells);
     before->copy(*seen);
-    lookahead->open(moves, patience);
+    lookahead->open();
+    lookahead->start(moves, patience);
     lookahead->begin(agent, here);
     while (!lookahead->done()) {
       ASSERT_GT(lookahead->advance(*seen, 1 + draw % 50), 0);
