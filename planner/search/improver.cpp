@@ -9,54 +9,17 @@ namespace ivo::planner {
 namespace {
 
 constexpr int kFirstRound = 4000;     // proposals; each round is twice as long as the one before
-constexpr int kStretch = 12;          // waypoints that 2-opt reverses at most
 constexpr int kSpare = 4;             // legs kept beyond the end of a plan: what follows if it must see more
 constexpr int kHottest = 400;         // a plan's cost over the first temperature, at least
 constexpr int kHottestLegs = 13;      // the same, of one leg's share: a change touches a leg or two
 constexpr double kLogCooling = -3.2;  // ln of the last temperature over the first
 constexpr int kScoreEvery = 250;      // proposals, or a twelfth of all, between two exact scores
 
-template <std::size_t N>
-bool insert_at(StaticVector<Leg, N>& legs, int i, Leg leg) noexcept {
-  if (!legs.push_back(leg)) {
-    return false;
-  }
-  std::rotate(legs.begin() + i, legs.end() - 1, legs.end());
-  return true;
-}
-
-template <std::size_t N>
-void erase(StaticVector<Leg, N>& legs, int first, int count) noexcept {
-  std::copy(legs.begin() + first + count, legs.end(), legs.begin() + first);
-  legs.resize(legs.size() - index(count));
-}
-
-template <std::size_t N>
-void turn(StaticVector<Leg, N>& legs, int first, int end) noexcept {
-  std::reverse(legs.begin() + first, legs.begin() + end);
-  for (int i = first; i < end; ++i) {
-    legs[index(i)] = legs[index(i)].turned();
-  }
-}
-
-template <std::size_t N>
-int size_of(const StaticVector<Leg, N>& legs) noexcept {
-  return static_cast<int>(legs.size());
-}
-
-#if IVO_PLANNER_FIXED
-constexpr Seconds kLater = Seconds(1 << 30);
-#else
-constexpr Seconds kLater = 1e300;
-#endif
-
 }  // namespace
 
 bool Improver::open(const ImproverParameters& parameters) noexcept {
-  const SegmentedMap& map = world_.map;
-  const Bodies& bodies = world_.bodies;
   parameters_ = parameters;
-  agents_ = static_cast<int>(bodies.size());
+  agents_ = static_cast<int>(world_.bodies.size());
   has_best_ = false;
   learned_ = false;
   recalls_learned_ = false;
@@ -65,25 +28,35 @@ bool Improver::open(const ImproverParameters& parameters) noexcept {
   if (!pool_.open()) {
     return false;
   }
+  open_field();
+  open_judge();
+  fill_tables();
+  return true;
+}
+
+// Where waypoints may lie, for changes and for lanes.
+void Improver::open_field() noexcept {
+  const SegmentedMap& map = world_.map;
+  const Bodies& bodies = world_.bodies;
   double widest_m = 0.0;
   double largest_m = 0.0;
   double most_swept = 0.0;  // m^2 in a second
-  std::array<SecondsAMetre, limits::kAgents> paces{};
   for (int m = 0; m < agents_; ++m) {
-    paces[index(m)] = SecondsAMetre(1.0 / world_.speeds_mps[index(m)]);
     widest_m = std::max(widest_m, bodies[index(m)].sight_radius_m);
     largest_m = std::max(largest_m, bodies[index(m)].footprint_radius_m);
     most_swept = std::max(most_swept, bodies[index(m)].sight_radius_m * world_.speeds_mps[index(m)]);
   }
   // Farther than the map is long is as good as that.
   const double border_m = std::min(std::max(largest_m, world_.clearance_m), map.width_m() + map.height_m());
-  right_ticks_ = static_cast<std::int32_t>(map.width_m() * kTicksAMetre);
-  top_ticks_ = static_cast<std::int32_t>(map.height_m() * kTicksAMetre);
-  border_ticks_ = static_cast<std::int32_t>(border_m * kTicksAMetre) + 2;
-  sight_ticks_ = std::max(8, static_cast<int>(widest_m * kTicksAMetre));
-  lane_team_.width = right_ticks_;
-  lane_team_.height = top_ticks_;
-  lane_team_.border = border_ticks_;
+  const RouteChange::Field field{.agents = agents_,
+                                 .width = static_cast<std::int32_t>(map.width_m() * kTicksAMetre),
+                                 .height = static_cast<std::int32_t>(map.height_m() * kTicksAMetre),
+                                 .border = static_cast<std::int32_t>(border_m * kTicksAMetre) + 2,
+                                 .sight = std::max(8, static_cast<int>(widest_m * kTicksAMetre))};
+  change_.open(field);
+  lane_team_.width = field.width;
+  lane_team_.height = field.height;
+  lane_team_.border = field.border;
   lane_team_.agents = agents_;
   for (int m = 0; m < agents_; ++m) {
     const double sight_m = bodies[index(m)].sight_radius_m;
@@ -92,10 +65,21 @@ bool Improver::open(const ImproverParameters& parameters) noexcept {
     lane_team_.sweep[index(m)] =
         std::max(1, static_cast<std::int32_t>(sight_m * world_.speeds_mps[index(m)] / most_swept * 0x1p20));
   }
-  judge_.open(world_.cells, world_.belief, paces, parameters.max_unseen_mass);
+}
+
+void Improver::open_judge() noexcept {
+  std::array<SecondsAMetre, limits::kAgents> paces{};
   for (int m = 0; m < agents_; ++m) {
-    judge_.set_start(m, pool_.make(m, pool_.place_of(m), pool_.place_of(m), work_));
+    paces[index(m)] = SecondsAMetre(1.0 / world_.speeds_mps[index(m)]);
   }
+  judge_.open(world_.cells, world_.belief, paces, parameters_.max_unseen_mass);
+  int work = 0;
+  for (int m = 0; m < agents_; ++m) {
+    judge_.set_start(m, pool_.make(m, pool_.place_of(m), pool_.place_of(m), work));
+  }
+}
+
+void Improver::fill_tables() noexcept {
   // E of exp(-E) = u: a worse plan is kept when it is worse by less than E temperatures (Metropolis et al. 1953).
   for (std::size_t i = 0; i < patience_.size(); ++i) {
     const double u = (static_cast<double>(i) + 0.5) / static_cast<double>(patience_.size());
@@ -111,7 +95,6 @@ bool Improver::open(const ImproverParameters& parameters) noexcept {
     const double share = static_cast<double>(i) / static_cast<double>(cooling_.size() - 1);
     cooling_[i] = static_cast<std::int32_t>(exp_negative(kLogCooling * share) * 65536.0 + 0.5);
   }
-  return true;
 }
 
 void Improver::start(const Tour& tour) noexcept {
@@ -184,30 +167,30 @@ void Improver::make_current() noexcept {
 }
 
 int Improver::restore_leg(int rows) noexcept {
-  work_ = 1;
+  int work = 1;
   if (restoring_ >= 0) {
-    if (pool_.make_rows(work_, rows + 1)) {
+    if (pool_.make_rows(work, rows + 1)) {
       (void)current_.legs[index(restored_agent_)].push_back({restoring_, false});
       restoring_ = -1;
       ++restored_;
     }
-    return work_;
+    return work;
   }
   const Waypoints& way = draft_[index(restored_agent_)];
   if (restored_ < way.size() && !current_.legs[index(restored_agent_)].full()) {
-    restoring_ = pool_.begin(restored_agent_, way[restored_ - 1], way[restored_], work_);
+    restoring_ = pool_.begin(restored_agent_, way[restored_ - 1], way[restored_], work);
     if (restoring_ >= 0) {
-      return work_;
+      return work;
     }
     draft_broken_ = true;  // something stands in the way, or there is no room: what there is goes on
   }
   ++restored_agent_;
   restored_ = 1;
   if (restored_agent_ == agents_) {
-    work_ += judge_.start(current_, Seconds{});
+    work += judge_.start(current_, Seconds{});
     phase_ = Phase::kJudgeFirst;
   }
-  return work_;
+  return work;
 }
 
 int Improver::advance(int rows) noexcept {
@@ -233,325 +216,25 @@ int Improver::advance(int rows) noexcept {
   return work;
 }
 
-Place Improver::place(const Legs& legs, int agent, int i) const noexcept {
-  if (i == 0) {
-    return pool_.place_of(agent);
-  }
-  const Leg leg = legs[index(i - 1)];
-  if (leg.segment < 0) {
-    return wishes_[index(-1 - leg.segment)].to;
-  }
-  return leg.back ? pool_[leg.segment].from : pool_[leg.segment].to;
-}
-
-Seconds Improver::time_at(int agent, int leg) const noexcept {
-  Seconds time_s{};
-  for (int i = 0; i < leg; ++i) {
-    time_s += judge_.seconds_along(agent, current_.legs[index(agent)][index(i)].segment);
-  }
-  return time_s;
-}
-
-// Changing legs that a plan does not come to changes nothing.
-int Improver::reach(int agent) const noexcept {
-  return std::min(size_of(current_.legs[index(agent)]), judged_.legs_used[index(agent)] + 2);
-}
-
-int Improver::pick_spread() noexcept {
-  const int draw = rng_.below(4);
-  return draw < 2 ? sight_ticks_ / 7 : draw == 2 ? sight_ticks_ / 2 : sight_ticks_ * 3 / 2;
-}
-
-// Two sums of uniforms: a bell of about that spread; what would lie too near the border lies as near as it may.
-Place Improver::near(const Place& centre, int spread) noexcept {
-  const auto inside = [](int ticks, int low, int high) { return low < high ? std::clamp(ticks, low, high) : ticks; };
-  const auto offset = [&] { return rng_.below(2 * spread + 1) + rng_.below(2 * spread + 1) - 2 * spread; };
-  const int x = offset();
-  const int y = offset();
-  return {{inside(centre.spot.x + x, border_ticks_, right_ticks_ - border_ticks_),
-           inside(centre.spot.y + y, border_ticks_, top_ticks_ - border_ticks_)},
-          -1};
-}
-
-bool Improver::put(int agent, Legs& legs, int i, const Place& from, const Place& to) noexcept {
-  if (from.spot == to.spot) {
-    return false;
-  }
-  legs[index(i)] = {-1 - static_cast<std::int32_t>(wishes_.size()), false};
-  return wishes_.push_back({agent, from, to, -1, true});
-}
-
-// The segments that the candidate needs, a part at a time.
-int Improver::make(int rows) noexcept {
-  work_ = 1;
-  while (work_ <= rows && wish_ < wishes_.size()) {
-    Wish& wish = wishes_[wish_];
-    if (wish.wanted && wish.segment < 0) {
-      wish.segment = pool_.begin(wish.agent, wish.from, wish.to, work_);
-      if (wish.segment < 0) {
-        reject();
-        after_proposal();
-        return work_;
-      }
-    } else if (!wish.wanted || pool_.make_rows(work_, rows + 1)) {
-      ++wish_;
-    }
-  }
-  if (wish_ == wishes_.size()) {
-    fill_in();
-    work_ += judge_.start(candidate_, changed_s_);
-    phase_ = Phase::kJudge;
-  }
-  return work_;
-}
-
-void Improver::fill_in() noexcept {
-  for (int m = 0; m < agents_; ++m) {
-    for (Leg& leg : candidate_.legs[index(m)]) {
-      if (leg.segment < 0) {
-        leg.segment = wishes_[index(-1 - leg.segment)].segment;
-      }
-    }
-    work_ += work::legs(size_of(candidate_.legs[index(m)])) / 2;
-  }
-}
-
 int Improver::propose() noexcept {
-  wishes_.clear();
-  wish_ = 0;
-  lost_.clear();
-  changed_s_ = kLater;
-  work_ = work::kProposal;
-  candidate_.assign(current_, agents_);
-  const int agent = rng_.below(agents_);
-  const int draw = rng_.below(100);
-  const bool sound = draw < 45   ? shift(agent)
-                     : draw < 60 ? add(agent)
-                     : draw < 75 ? drop(agent)
-                     : draw < 85 ? reverse(agent)
-                     : draw < 93 ? relocate(agent)
-                                 : exchange(agent);
-  for (int m = 0; m < agents_; ++m) {
-    work_ += work::legs(size_of(current_.legs[index(m)]));
-  }
-  if (sound) {
+  int work = 0;
+  if (change_.propose(current_, judged_, rng_, work)) {
     phase_ = Phase::kMake;
   } else {
-    reject();
     after_proposal();
   }
-  return work_;
+  return work;
 }
 
-// Moves a waypoint.
-bool Improver::shift(int agent) noexcept {
-  Legs& legs = candidate_.legs[index(agent)];
-  const int n = size_of(legs);
-  if (n == 0) {
-    return false;
+int Improver::make(int rows) noexcept {
+  int work = 1;
+  if (!change_.make(work, rows + 1)) {
+    after_proposal();
+  } else if (change_.made()) {
+    work += judge_.start(change_.candidate(), change_.changed_s());
+    phase_ = Phase::kJudge;
   }
-  const int i = std::min(n, 1 + rng_.below(std::max(1, reach(agent))));
-  const Place to = near(place(legs, agent, i), pick_spread());
-  const Place before = place(legs, agent, i - 1);
-  changed(time_at(agent, i - 1));
-  lose(legs[index(i - 1)]);
-  if (i == n) {
-    return put(agent, legs, i - 1, before, to);
-  }
-  const Place after = place(legs, agent, i + 1);
-  lose(legs[index(i)]);
-  return put(agent, legs, i - 1, before, to) && put(agent, legs, i, to, after);
-}
-
-// Adds a waypoint beside a leg, or at the end.
-bool Improver::add(int agent) noexcept {
-  Legs& legs = candidate_.legs[index(agent)];
-  const int n = size_of(legs);
-  const int i = std::min(n, rng_.below(reach(agent) + 1));
-  const Place before = place(legs, agent, i);
-  const int spread = rng_.below(2) == 0 ? sight_ticks_ / 2 : sight_ticks_ * 3 / 2;
-  changed(time_at(agent, i));
-  if (i == n) {
-    return legs.push_back({}) && put(agent, legs, i, before, near(before, spread));
-  }
-  const Place after = place(legs, agent, i + 1);
-  const int share = rng_.below(257);
-  const Place between{{before.spot.x + (after.spot.x - before.spot.x) * share / 256,
-                       before.spot.y + (after.spot.y - before.spot.y) * share / 256},
-                      -1};
-  const Place to = near(between, spread);
-  lose(legs[index(i)]);
-  return insert_at(legs, i, {}) && put(agent, legs, i, before, to) && put(agent, legs, i + 1, to, after);
-}
-
-bool Improver::drop(int agent) noexcept {
-  Legs& legs = candidate_.legs[index(agent)];
-  const int n = size_of(legs);
-  if (n < 2) {
-    return false;
-  }
-  const int i = std::min(n, 1 + rng_.below(std::max(1, reach(agent))));
-  const Place before = place(legs, agent, i - 1);
-  changed(time_at(agent, i - 1));
-  lose(legs[index(i - 1)]);
-  if (i == n) {
-    legs.pop_back();
-    return true;
-  }
-  const Place after = place(legs, agent, i + 1);
-  lose(legs[index(i)]);
-  erase(legs, i, 1);
-  return put(agent, legs, i - 1, before, after);
-}
-
-// 2-opt: a stretch the other way round.
-bool Improver::reverse(int agent) noexcept {
-  Legs& legs = candidate_.legs[index(agent)];
-  const int n = size_of(legs);
-  if (n < 3) {
-    return false;
-  }
-  const int i = 1 + rng_.below(std::max(1, reach(agent)));
-  const int j = std::min(n, i + 1 + rng_.below(kStretch));
-  if (i >= j) {
-    return false;
-  }
-  const Place before = place(legs, agent, i - 1);
-  const Place first = place(legs, agent, i);
-  const Place last = place(legs, agent, j);
-  changed(time_at(agent, i - 1));
-  lose(legs[index(i - 1)]);
-  if (j == n) {
-    turn(legs, i, j);
-    return put(agent, legs, i - 1, before, last);
-  }
-  const Place after = place(legs, agent, j + 1);
-  lose(legs[index(j)]);
-  turn(legs, i, j);
-  return put(agent, legs, i - 1, before, last) && put(agent, legs, j, first, after);
-}
-
-// Or-opt: up to four waypoints to another place, of this agent's way or another's, either way round.
-bool Improver::relocate(int agent) noexcept {
-  Legs& legs = candidate_.legs[index(agent)];
-  const int n = size_of(legs);
-  if (n < 3) {
-    return false;
-  }
-  const int i = 1 + rng_.below(std::max(1, reach(agent)));
-  const int j = i + rng_.below(4);
-  if (j > n) {
-    return false;
-  }
-  int other = rng_.below(2) == 0 ? agent : rng_.below(agents_);
-  if (!pool_.alike(agent, other)) {
-    other = agent;
-  }
-  const Place before = place(legs, agent, i - 1);
-  Place first = place(legs, agent, i);
-  Place last = place(legs, agent, j);
-  changed(time_at(agent, i - 1));
-  StaticVector<Leg, 8> moved;
-  for (int k = i; k < j; ++k) {
-    (void)moved.push_back(legs[index(k)]);
-  }
-  lose(legs[index(i - 1)]);
-  if (j < n) {
-    const Place after = place(legs, agent, j + 1);
-    lose(legs[index(j)]);
-    erase(legs, i, j - i + 1);
-    if (!put(agent, legs, i - 1, before, after)) {
-      return false;
-    }
-  } else {
-    legs.resize(index(i - 1));
-  }
-  Legs& into = candidate_.legs[index(other)];
-  const int size = size_of(into);
-  const int at = std::min(size, rng_.below(std::min(size, judged_.legs_used[index(other)] + 2) + 1));
-  changed(time_at(other, std::min(at, size_of(current_.legs[index(other)]))));
-  const Place left = place(into, other, at);
-  if (rng_.below(2) == 0) {
-    turn(moved, 0, size_of(moved));
-    std::swap(first, last);
-  }
-  if (into.size() + moved.size() + 2 > into.capacity()) {
-    return false;
-  }
-  if (at == size) {
-    (void)into.push_back({});
-    for (const Leg& leg : moved) {
-      (void)into.push_back(leg);
-    }
-    return put(other, into, at, left, first);
-  }
-  const Place right = place(into, other, at + 1);
-  const Leg replaced = into[index(at)];
-  for (const Leg& leg : moved) {
-    (void)insert_at(into, at + 1 + static_cast<int>(&leg - moved.begin()), leg);
-  }
-  (void)insert_at(into, at + 1 + size_of(moved), {});
-  take_out(replaced);
-  return put(other, into, at, left, first) && put(other, into, at + 1 + size_of(moved), last, right);
-}
-
-// A leg that is no longer in the candidate: of the current route, or wished for a moment ago.
-void Improver::take_out(const Leg& leg) noexcept {
-  if (leg.segment < 0) {
-    wishes_[index(-1 - leg.segment)].wanted = false;
-  } else {
-    lose(leg);
-  }
-}
-
-// Two agents go on with each other's ways, from about the same time on.
-bool Improver::exchange(int agent) noexcept {
-  if (agents_ < 2) {
-    return false;
-  }
-  const int other = (agent + 1 + rng_.below(agents_ - 1)) % agents_;
-  if (!pool_.alike(agent, other)) {
-    return false;
-  }
-  Legs& a = candidate_.legs[index(agent)];
-  Legs& b = candidate_.legs[index(other)];
-  const int i = std::min(size_of(a), rng_.below(reach(agent) + 1));
-  const Seconds at_s = time_at(agent, i);
-  int j = 0;
-  for (Seconds time_s{}; j < size_of(b) && time_s < at_s; ++j) {
-    time_s += judge_.seconds_along(other, b[index(j)].segment);
-  }
-  j = std::clamp(j + rng_.below(5) - 2, 0, std::min(size_of(b), reach(other)));
-  const int a_left = size_of(a) - i;
-  const int b_left = size_of(b) - j;
-  if (a_left + b_left == 0 || index(i + b_left) > a.capacity() || index(j + a_left) > b.capacity()) {
-    return false;
-  }
-  changed(at_s);
-  changed(time_at(other, j));
-  const Place from_a = place(a, agent, i);
-  const Place from_b = place(b, other, j);
-  const Place to_a = a_left > 0 ? place(a, agent, i + 1) : Place{};
-  const Place to_b = b_left > 0 ? place(b, other, j + 1) : Place{};
-  if (a_left > 0) {
-    lose(a[index(i)]);
-  }
-  if (b_left > 0) {
-    lose(b[index(j)]);
-  }
-  spare_.clear();
-  for (int k = i; k < size_of(a); ++k) {
-    (void)spare_.push_back(a[index(k)]);
-  }
-  a.resize(index(i));
-  for (int k = j; k < size_of(b); ++k) {
-    (void)a.push_back(b[index(k)]);
-  }
-  b.resize(index(j));
-  for (const Leg& leg : spare_) {
-    (void)b.push_back(leg);
-  }
-  return (b_left == 0 || put(agent, a, i, from_a, to_b)) && (a_left == 0 || put(other, b, j, from_b, to_a));
+  return work;
 }
 
 // A route has been judged.
@@ -575,7 +258,7 @@ int Improver::settle() noexcept {
       work += work::legs(size_of(current_.legs[index(m)]));
     }
   } else {
-    reject();
+    change_.reject();
   }
   after_proposal();
   return work;
@@ -600,10 +283,7 @@ int Improver::take_draft() noexcept {
 void Improver::accept() noexcept {
   judged_ = judge_.judgement();
   judge_.accept();
-  current_.assign(candidate_, agents_);
-  for (const std::int32_t id : lost_) {
-    pool_.release(id);
-  }
+  change_.accept(current_);
   for (int m = 0; m < agents_; ++m) {
     Legs& legs = current_.legs[index(m)];
     while (size_of(legs) > judged_.legs_used[index(m)] + kSpare) {
@@ -616,24 +296,16 @@ void Improver::accept() noexcept {
   }
 }
 
-void Improver::reject() noexcept {
-  for (const Wish& wish : wishes_) {
-    if (wish.segment >= 0) {
-      pool_.release(wish.segment);
-    }
-  }
-}
-
 void Improver::remember() noexcept {
   remembered_cost_ = judged_.cost;
   remembered_complete_ = true;
   remembered_ = true;
   for (int m = 0; m < agents_; ++m) {
     Waypoints& way = memory_[index(m)];
-    const Legs& legs = current_.legs[index(m)];
     way.clear();
-    for (int i = 0; i <= size_of(legs); ++i) {
-      (void)way.push_back(place(legs, m, i));
+    (void)way.push_back(pool_.place_of(m));
+    for (const Leg& leg : current_.legs[index(m)]) {
+      (void)way.push_back(end_of(leg, pool_));
     }
   }
 }

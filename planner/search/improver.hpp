@@ -1,10 +1,8 @@
-// Iterated improvement of a plan, off the graph too: waypoints are moved, added and dropped, stretches reversed
-// (2-opt), moved (or-opt), given to another agent or exchanged at their ends, and a worse plan is sometimes kept for a
-// while (simulated annealing, Kirkpatrick et al. 1983), in rounds that double in length: there is no time by which it
-// must be asked. The best plan by its exact score is always ready and only gets better.
+// Iterated improvement of a plan, off the graph too: its route is changed (route_change.hpp), and a worse one is
+// sometimes kept for a while (simulated annealing, Kirkpatrick et al. 1983), in rounds that double in length: there is
+// no time by which it must be asked. The best plan by its exact score is always ready and only gets better.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -12,6 +10,7 @@
 #include "planner/search/lanes.hpp"
 #include "planner/search/path_score.hpp"
 #include "planner/search/route.hpp"
+#include "planner/search/route_change.hpp"
 #include "planner/search/route_judge.hpp"
 #include "planner/search/tour.hpp"
 #include "planner/search/world.hpp"
@@ -31,7 +30,7 @@ static_assert(Legs::capacity() + 1 == Waypoints::capacity() && Lanes::capacity()
 class Improver {
  public:
   Improver(const World& world, FirstSightings& sightings) noexcept
-      : world_(world), pool_(world), judge_(pool_), scorer_(sightings) {}
+      : world_(world), pool_(world), judge_(pool_), change_(pool_, judge_), scorer_(sightings) {}
 
   /// Another mission: tables. False when there is nothing it could do (segment_pool.hpp).
   [[nodiscard]] bool open(const ImproverParameters& parameters) noexcept;
@@ -60,21 +59,18 @@ class Improver {
   [[nodiscard]] Phase phase() const noexcept { return phase_; }
 
  private:
+  void open_field() noexcept;
+  void open_judge() noexcept;
+  void fill_tables() noexcept;
   void draft_lanes() noexcept;
   void recall() noexcept;
   void make_current() noexcept;
   int take_draft() noexcept;
   int restore_leg(int rows) noexcept;
   int propose() noexcept;
-  bool shift(int agent) noexcept;
-  bool add(int agent) noexcept;
-  bool drop(int agent) noexcept;
-  bool reverse(int agent) noexcept;
-  bool relocate(int agent) noexcept;
-  bool exchange(int agent) noexcept;
+  int make(int rows) noexcept;
   int settle() noexcept;
   void accept() noexcept;
-  void reject() noexcept;
   void remember() noexcept;
   void after_proposal() noexcept;
   int begin_round() noexcept;
@@ -82,48 +78,19 @@ class Improver {
   void start_score() noexcept;
   int take_score() noexcept;
 
-  [[nodiscard]] Place place(const Legs& legs, int agent, int i) const noexcept;
-  [[nodiscard]] Seconds time_at(int agent, int leg) const noexcept;
-  [[nodiscard]] int reach(int agent) const noexcept;
-  [[nodiscard]] Place near(const Place& centre, int spread) noexcept;
-  [[nodiscard]] int pick_spread() noexcept;
-  [[nodiscard]] bool put(int agent, Legs& legs, int i, const Place& from, const Place& to) noexcept;
-  int make(int rows) noexcept;
-  void fill_in() noexcept;
   [[nodiscard]] bool better(const PlanScore& a, const PlanScore& b) const noexcept;
-  void lose(const Leg& leg) noexcept { (void)lost_.push_back(leg.segment); }
-  void take_out(const Leg& leg) noexcept;
-  void changed(Seconds at) noexcept { changed_s_ = std::min(changed_s_, at); }
 
   const World& world_;
   SegmentPool pool_;
   RouteJudge judge_;
+  RouteChange change_;
   PathScorer scorer_;
   ImproverParameters parameters_;
   Rng rng_;
   Phase phase_ = Phase::kPropose;
   int agents_ = 0;
-  std::int32_t sight_ticks_ = 1;
-  std::int32_t border_ticks_ = 0;  // least distance of a waypoint from the border
-  std::int32_t right_ticks_ = 0;
-  std::int32_t top_ticks_ = 0;
-
   Route current_;
-  Route candidate_;
   Judgement judged_;  // of current_
-  Legs spare_;
-  struct Wish {  // a segment that the candidate needs; its leg holds -1 - its number until it is made
-    int agent = 0;
-    Place from;
-    Place to;
-    std::int32_t segment = -1;
-    bool wanted = true;
-  };
-  StaticVector<Wish, 8> wishes_;
-  std::size_t wish_ = 0;                 // the one under way
-  StaticVector<std::int32_t, 16> lost_;  // segments of the current route alone
-  Seconds changed_s_{};
-  int work_ = 0;
 
   std::int64_t proposals_ = 0;
   int round_ = 0;

@@ -19,6 +19,15 @@ struct Leg {
 /// One fewer than the waypoints that they join.
 using Legs = StaticVector<Leg, limits::kWaypoints - 1>;
 
+template <std::size_t N>
+[[nodiscard]] int size_of(const StaticVector<Leg, N>& legs) noexcept {
+  return static_cast<int>(legs.size());
+}
+
+[[nodiscard]] inline Place end_of(const Leg& leg, const SegmentPool& pool) noexcept {
+  return leg.back ? pool[leg.segment].from : pool[leg.segment].to;
+}
+
 struct Route {
   std::array<Legs, limits::kAgents> legs;
 
