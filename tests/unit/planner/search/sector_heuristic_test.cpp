@@ -28,8 +28,14 @@ class SectorHeuristicTest : public testing::Test {
   void open() {
     ASSERT_FALSE(test::shared_planner().prepare(m1_.problem()));
     sectors().open();
-    sectors().start();
+    start_ant();
     seen_.assign(index(world().cells.count()), false);
+  }
+  static void start_ant(int rows = 3) {
+    sectors().start();
+    while (!sectors().started()) {
+      EXPECT_GT(sectors().start_tiles(rows), 0);
+    }
   }
   static const World& world() { return test::shared_planner().world(); }
 
@@ -171,7 +177,7 @@ TEST_F(SectorHeuristicTest, ForgetsWithANewAntWhatTheLastHasSeen) {
   const std::vector<double> whole = weights(0, 9, 1);
   take_around({20.0, 20.0}, 12.0);
   EXPECT_NE(weights(0, 9, 1), whole);
-  sectors().start();
+  start_ant();
   EXPECT_EQ(weights(0, 9, 1), whole);
 }
 
