@@ -47,8 +47,6 @@ class UnseenHeuristic {
   [[nodiscard]] Visibility visibility(Edge e, int beta) const noexcept;
 
  private:
-  static constexpr int kNeighbours = 128;
-
   void weigh(const SeenMap& seen, int& work) noexcept;
 
   const World& world_;
@@ -57,7 +55,7 @@ class UnseenHeuristic {
   Edge edge_ = 0;  // next
   Edge end_ = 0;
   Eta best_{};
-  std::array<Eta, kNeighbours> etas_{};
+  std::array<Eta, limits::kNeighbours> etas_{};
 };
 
 }  // namespace ivo::planner
