@@ -8,22 +8,23 @@ namespace ivo::planner {
 
 enum class RefusalCode : std::uint8_t {
   kNone,
-  kTooManyCells,      ///< value cells, limit; a row of under 64 takes the room of up to 60
-  kTooManySquares,    ///< value squares of the graph, limit
-  kTooManyNodes,      ///< value nodes that there would be, at most, limit
-  kTooManyEdges,      ///< value directed edges so far, limit
-  kSightTableFull,    ///< value rows of all swaths, limit (the count ends above the largest profile's)
-  kTooManySwaths,     ///< value swaths of all nodes and edges, limit (likewise)
-  kEdgeTooLong,       ///< value sight points of one edge, limit: cells too small for the spacing
-  kNoGraphTable,      ///< this build has no libccd and must be given its graph
-  kGraphTableUnfit,   ///< a graph that was given is none, or not one for these agents
-  kStartOutsideMap,   ///< agent
-  kStartBlocked,      ///< agent; value metres to the nearest obstacle or border, limit its footprint's radius
-  kStartRestricted,   ///< agent
-  kPriorWithoutMass,  ///< no free cell holds any
-  kNoMassObservable,  ///< agent; from everywhere it can go it sees no cell that holds any
-  kAreaWithoutMass,   ///< agent, area; a preferred area covers no mass that its agent can observe
-  kPriorNotFinite,    ///< value, a mass below 0, infinite or no number; agent: of its sub-prior, -1: of the prior
+  kTooManyCells,       ///< value cells, limit; a row of under 64 takes the room of up to 60
+  kTooManySquares,     ///< value squares of the graph, limit
+  kTooManyNodes,       ///< value nodes that there would be, at most, limit
+  kTooManyEdges,       ///< value directed edges so far, limit
+  kTooManyNeighbours,  ///< value edges from one node of a graph that was given, limit
+  kSightTableFull,     ///< value rows of all swaths, limit (the count ends above the largest profile's)
+  kTooManySwaths,      ///< value swaths of all nodes and edges, limit (likewise)
+  kEdgeTooLong,        ///< value sight points of one edge, limit: cells too small for the spacing
+  kNoGraphTable,       ///< this build has no libccd and must be given its graph
+  kGraphTableUnfit,    ///< a graph that was given is none, or not one for these agents
+  kStartOutsideMap,    ///< agent
+  kStartBlocked,       ///< agent; value metres to the nearest obstacle or border, limit its footprint's radius
+  kStartRestricted,    ///< agent
+  kPriorWithoutMass,   ///< no free cell holds any
+  kNoMassObservable,   ///< agent; from everywhere it can go it sees no cell that holds any
+  kAreaWithoutMass,    ///< agent, area; a preferred area covers no mass that its agent can observe
+  kPriorNotFinite,     ///< value, a mass below 0, infinite or no number; agent: of its sub-prior, -1: of the prior
   // What problem_checks.hpp finds, before anything is built.
   kMapInvalid,         ///< value pixels given, limit width times height; or limit 0: value metres a pixel
   kNoAgents,           ///< nobody to search

@@ -45,6 +45,9 @@ Error sentence(const planner::Refusal& refusal, const MissionInputs& inputs) {
       return {"this build of the planner cannot prove edges free; expected a graph made by one with libccd"};
     case RefusalCode::kGraphTableUnfit:
       return {"the graph given to the planner does not fit the mission; expected one built for its agents"};
+    case RefusalCode::kTooManyNeighbours:
+      return {"a node of the graph given to the planner has " + shortest(refusal.value) +
+              " neighbours; expected at most " + shortest(refusal.limit)};
     case RefusalCode::kStartOutsideMap:
       return lines.at(agent_key + ".start_m", place(agent->start) + " is outside the map; expected 0 to " +
                                                   shortest(inputs.map.view().width_m()) + ", 0 to " +

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "planner/numeric/index.hpp"
 
@@ -62,9 +63,13 @@ Refusal normalise(const Cells& cells, const SightTable& sight, int agents, std::
   const double negligible = observable * std::max(kNegligibleShare / cells.count(), kLeastShare);
   const auto counts = [&](Cell c) { return sight.observable_by(c) != 0 && raw[index(c)] > negligible; };
   double kept = 0.0;
+  double least = std::numeric_limits<double>::infinity();
+  double most = 0.0;
   for (Cell c = 0; c < cells.count(); ++c) {
     if (counts(c)) {
       kept += raw[index(c)];
+      least = std::min(least, raw[index(c)]);
+      most = std::max(most, raw[index(c)]);
       observers = static_cast<AgentSet>(observers | sight.observable_by(c));
     }
   }
@@ -77,9 +82,12 @@ Refusal normalise(const Cells& cells, const SightTable& sight, int agents, std::
   belief.without_mass.open(cells.columns(), cells.rows());
   belief.alike = Mass{};
   belief.whole = Mass{};
+  const bool alike = least == most;  // and stay so: nothing is lost where all are shares of their own sum
+  MassRounding rounding;
   for (Cell c = 0; c < cells.count(); ++c) {
     Mass& mass = belief.mass[index(c)];
-    mass = counts(c) ? mass_from(raw[index(c)] / kept) : Mass{};
+    const double share = counts(c) ? raw[index(c)] / kept : 0.0;
+    mass = alike ? mass_from(share) : rounding.round(share);
     if (mass <= Mass{}) {
       belief.without_mass.set(cells.column(c), cells.row(c));
       continue;

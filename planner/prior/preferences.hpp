@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <span>
 
 #include "config/base/static_vector.hpp"
@@ -33,15 +34,16 @@ using PreferredAreas = StaticVector<Areas, limits::kAgents>;
 /// is none, and `left_without` says so. Cost: the cells with mass.
 template <class ShareOf>
 void fill_sub_prior(int agent, double sum, Belief& belief, AgentSet& left_without, ShareOf&& share_of) noexcept {
-  const bool none = sum <= 0.0;
+  const bool none = sum < std::numeric_limits<double>::min();  // of less, the scale would be infinite
   if (none) {
     left_without = static_cast<AgentSet>(left_without | agent_bit(agent));
   }
-  const double scale = none ? 1.0 / belief.agents : 1.0 / (belief.agents * sum);
+  const double scale = none ? 1.0 / belief.agents : 1.0 / sum / belief.agents;
   Mass sum_of_agent{};
+  MassRounding rounding;
   for (const Cell c : belief.cells_with_mass()) {
     const double share = none ? to_double(belief.mass[index(c)]) : share_of(c);
-    const Mass mass = mass_from(share * scale);
+    const Mass mass = rounding.round(share * scale);
     belief.sub_mass[index(agent)][index(c)] = mass;
     sum_of_agent += mass;
   }

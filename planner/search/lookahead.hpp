@@ -14,6 +14,9 @@ namespace ivo::planner {
 class Lookahead {
  public:
   static constexpr int kMostMoves = 3;
+  /// Rows of the seen map that a sequence of moves may change. What it shows beyond counts and stays unseen: its next
+  /// moves may count it again. It takes discs of hundreds of rows to get there.
+  static constexpr int kUndo = 8192;
 
   explicit Lookahead(const World& world) noexcept : world_(world), unseen_(world) {}
 
@@ -33,8 +36,7 @@ class Lookahead {
   [[nodiscard]] Edge first_move() const noexcept { return levels_[0].chosen; }
 
  private:
-  static constexpr int kWidth = 4;  // edges followed at each move
-  static constexpr int kUndo = 8192;
+  static constexpr int kWidth = 4;     // edges followed at each move
   static constexpr int kWeights = 64;  // of an eighth of the patience each
 
   struct Option {

@@ -1,6 +1,7 @@
 #include "planner/search/mass_planes.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace ivo::planner {
 namespace {
@@ -17,16 +18,15 @@ double dither(int column, int row) noexcept {
 void MassPlanes::build(const Cells& cells, const Belief& belief,
                        const std::array<Mass, limits::kCells>& mass) noexcept {
   double largest = 0.0;
+  double least = std::numeric_limits<double>::infinity();
   double sum = 0.0;
-  bool alike = true;
-  double known = 0.0;
   for (const Cell c : belief.cells_with_mass()) {
     const double p = to_double(mass[index(c)]);
     largest = std::max(largest, p);
+    least = p > 0.0 ? std::min(least, p) : least;
     sum += p;
-    alike = alike && (p == 0.0 || known == 0.0 || p == known);
-    known = p > 0.0 ? p : known;
   }
+  const bool alike = largest - least <= kMassUnit;  // but for their rounding
   count_ = alike ? 1 : kPlanes;
   for (int b = 0; b < count_; ++b) {
     planes_[index(b)].open(cells.columns(), cells.rows());

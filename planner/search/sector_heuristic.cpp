@@ -84,7 +84,7 @@ int SectorHeuristic::begin(int agent, Node here) noexcept {
   const Graph& graph = world_.graph;
   prior_ = priors_ > 1 ? agent : 0;
   first_edge_ = graph.first_edge(here);
-  neighbours_ = std::min<int>(kNeighbours, graph.end_edge(here) - first_edge_);
+  neighbours_ = graph.end_edge(here) - first_edge_;
   here_x_ = units(graph.position(here).x_m);
   here_y_ = units(graph.position(here).y_m);
   in_bin_ = {};
@@ -179,9 +179,6 @@ void SectorHeuristic::close() noexcept {
 
 Visibility SectorHeuristic::visibility(Edge e, int beta) const noexcept {
   const int i = e - first_edge_;
-  if (i >= neighbours_) {
-    return Visibility{};
-  }
 #if IVO_PLANNER_FIXED
   const std::uint64_t ratio = (sums_[index(i)] << 16U) / best_;
   std::uint64_t power = 1U << 16U;

@@ -44,7 +44,7 @@ class SectorHeuristic {
  private:
   static constexpr int kTile = 8;
   static constexpr int kTilesMost = limits::kCells / 16 + 64;
-  static constexpr int kNeighbours = 128;
+  static constexpr int kNeighbours = limits::kNeighbours;
   static constexpr int kBins = 64;  // of directions
   static constexpr int kDiscounts = 8192;
   static constexpr int kUnitsACell = 16;  // of length

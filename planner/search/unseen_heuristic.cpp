@@ -47,7 +47,7 @@ Eta eta_of(Mass mass, double length_m) noexcept {
 void UnseenHeuristic::begin(int agent, Node here) noexcept {
   agent_ = agent;
   first_ = edge_ = world_.graph.first_edge(here);
-  end_ = std::min<Edge>(world_.graph.end_edge(here), first_ + kNeighbours);
+  end_ = world_.graph.end_edge(here);
   weighing_ = false;
   best_ = Eta{};
   etas_.fill(Eta{});
@@ -70,7 +70,7 @@ int UnseenHeuristic::weigh(const SeenMap& seen, int rows) noexcept {
 }
 
 Visibility UnseenHeuristic::visibility(Edge e, int beta) const noexcept {
-  if (e >= end_ || best_ <= Eta{}) {
+  if (best_ <= Eta{}) {
     return Visibility{};
   }
   const Eta eta = etas_[index(e - first_)];
@@ -87,7 +87,7 @@ Visibility UnseenHeuristic::visibility(Edge e, int beta) const noexcept {
   for (int k = 0; k < beta; ++k) {
     power *= ratio;
   }
-  return power;
+  return eta > 0.0 ? power : 0.0;
 #endif
 }
 

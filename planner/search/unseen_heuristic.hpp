@@ -69,8 +69,6 @@ class UnseenHeuristic {
   [[nodiscard]] Visibility visibility(Edge e, int beta) const noexcept;
 
  private:
-  static constexpr int kNeighbours = 128;
-
   int weigh(const SeenMap& seen, int rows) noexcept;
 
   const World& world_;
@@ -81,7 +79,7 @@ class UnseenHeuristic {
   UnseenMass shown_;
   bool weighing_ = false;  // edge_ is under way
   Eta best_{};
-  std::array<Eta, kNeighbours> etas_{};
+  std::array<Eta, limits::kNeighbours> etas_{};
 };
 
 }  // namespace ivo::planner

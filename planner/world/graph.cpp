@@ -34,18 +34,27 @@ Refusal Graph::load(const GraphTable& table, const GraphAgents& agents) noexcept
   std::copy(table.heads.begin(), table.heads.end(), heads_.begin());
   std::copy(table.open_to.begin(), table.open_to.end(), open_to_.begin());
   if (this->edges() != static_cast<int>(edges) || !is_whole()) {
-    nodes_ = 0;
-    agents_ = 0;
-    first_edge_[0] = 0;
+    forget();
     return kUnfit;
   }
   for (Node n = 0; n < nodes_; ++n) {
+    if (end_edge(n) - first_edge(n) > limits::kNeighbours) {
+      const auto neighbours = static_cast<double>(end_edge(n) - first_edge(n));
+      forget();
+      return {.code = RefusalCode::kTooManyNeighbours, .value = neighbours, .limit = limits::kNeighbours};
+    }
     for (Edge e = first_edge(n); e < end_edge(n); ++e) {
       lengths_m_[index(e)] = distance_m(position(n), position(head(e)));
     }
   }
   reach();
   return {};
+}
+
+void Graph::forget() noexcept {
+  nodes_ = 0;
+  agents_ = 0;
+  first_edge_[0] = 0;
 }
 
 // Rows in order from 0 on; in a row, heads that ascend, none its own node, each with its way back for the same agents.

@@ -82,6 +82,7 @@ class Graph {
   [[nodiscard]] Refusal place_starts(const SegmentedMap& map, const GraphAgents& agents) noexcept;
   [[nodiscard]] Refusal place_nodes(const SegmentedMap& map, const GraphParameters& parameters) noexcept;
   [[nodiscard]] Refusal connect(const SegmentedMap& map, const GraphAgents& agents) noexcept;
+  void forget() noexcept;
   [[nodiscard]] bool is_whole() const noexcept;
   void reach() noexcept;
   [[nodiscard]] int square_of(Point p) const noexcept;

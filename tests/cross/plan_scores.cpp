@@ -1,6 +1,7 @@
 // plan_scores make: plans on this build's arithmetic, to standard output, a line an agent: CASE AGENT X Y X Y ...
-// plan_scores score: reads such lines and says what this build's path scorer gives each case: CASE ET ET_c EST UNSEEN.
-// plan_scores_test.py gives one build's plans to two.
+// plan_scores score: reads such lines, each with a word before it that tells several plans of a case apart, and says
+// what this build's path scorer gives each: WORD CASE ET ET_c EST UNSEEN. plan_scores_test.py gives one build's plans
+// to two.
 #include <array>
 #include <cstdio>
 #include <iostream>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "planner/search/path_score.hpp"
+#include "tests/cross/large_case.hpp"
 #include "tests/cross/paper_case.hpp"
 
 namespace ivo {
@@ -19,19 +21,31 @@ namespace {
 
 constexpr double kMaxUnseen = 0.014;
 
-struct ScoredCase {
+struct PlannedCase {
   std::string name;
   cross::PaperRow row;
   bool courtyard = false;
 };
 
 // The last one is as the shipped courtyard mission: slow, unlike agents, one of whom would rather search an area.
-const std::array<ScoredCase, 4> kCases = {{{"M1/U", {}},
-                                           {"M1/G/S", {.peaked = true, .sub_priors = true}},
-                                           {"M2/U", {.m2 = true}},
-                                           {"courtyard", {.m2 = true, .peaked = true}, true}}};
+const std::array<PlannedCase, 4> kPlanned = {{{"M1/U", {}},
+                                              {"M1/G/S", {.peaked = true, .sub_priors = true}},
+                                              {"M2/U", {.m2 = true}},
+                                              {"courtyard", {.m2 = true, .peaked = true}, true}}};
 
-void change(const ScoredCase& c, planner::SearchProblem& problem) {
+using enum cross::LargePrior;
+using enum cross::LargeSubPriors;
+// Of the last three, the masses of large areas are rounded alike, by as much as half a unit of a thousand.
+const std::array<cross::LargeRow, 7> kLarge = {
+    {{.name = "large/U", .side_m = 400.0},
+     {.name = "large/G", .prior = kFarGaussian},
+     {.name = "large/U/S", .sub_priors = kAlike},
+     {.name = "large/GG/S", .prior = kTwoGaussians, .sub_priors = kDealt},
+     {.name = "large/spot", .side_m = 400.0, .prior = kSpot},
+     {.name = "large/U/one", .sub_priors = kPreferredByOne},
+     {.name = "large/steps/both", .side_m = 400.0, .prior = kSteps, .sub_priors = kPreferredByBoth}}};
+
+void change(const PlannedCase& c, planner::SearchProblem& problem) {
   problem.colony.generations = 40;
   if (c.courtyard) {
     problem.agents[0].speed_mps = 0.35;
@@ -51,9 +65,18 @@ bool prepare(planner::Planner& planner, const planner::SearchProblem& problem) {
   return true;
 }
 
+template <class Waypoints>
+void say(const std::string& name, std::size_t agent, const Waypoints& waypoints) {
+  std::printf("%s %zu", name.c_str(), agent);
+  for (const Point p : waypoints) {
+    std::printf(" %.17g %.17g", p.x_m, p.y_m);
+  }
+  std::printf("\n");
+}
+
 int make(planner::Planner& planner) {
   static planner::Plan plan;
-  for (const ScoredCase& c : kCases) {
+  for (const PlannedCase& c : kPlanned) {
     cross::PaperCase paper(c.row);
     change(c, paper.problem());
     if (!prepare(planner, paper.problem())) {
@@ -63,26 +86,31 @@ int make(planner::Planner& planner) {
     }
     planner.best_plan(plan);
     for (std::size_t m = 0; m < plan.paths.size(); ++m) {
-      std::printf("%s %zu", c.name.c_str(), m);
-      for (const Point p : plan.paths[m].waypoints) {
-        std::printf(" %.17g %.17g", p.x_m, p.y_m);
-      }
-      std::printf("\n");
+      say(c.name, m, plan.paths[m].waypoints);
+    }
+  }
+  for (const cross::LargeRow& row : kLarge) {
+    const std::vector<std::vector<Point>> ways = cross::LargeCase(row).ways();
+    for (std::size_t m = 0; m < ways.size(); ++m) {
+      say(row.name, m, ways[m]);
     }
   }
   return 0;
 }
 
 using Ways = std::vector<std::vector<Point>>;
+/// By case, and then by the word before it.
+using Plans = std::map<std::string, std::map<std::string, Ways>>;
 
-std::map<std::string, Ways> read_plans() {
-  std::map<std::string, Ways> plans;
+Plans read_plans() {
+  Plans plans;
   for (std::string line; std::getline(std::cin, line);) {
     std::istringstream words(line);
+    std::string word;
     std::string name;
     std::size_t agent = 0;
-    words >> name >> agent;
-    Ways& ways = plans[name];
+    words >> word >> name >> agent;
+    Ways& ways = plans[name][word];
     ways.resize(2);
     for (Point p; words >> p.x_m >> p.y_m;) {
       ways.at(agent).push_back(p);
@@ -91,25 +119,41 @@ std::map<std::string, Ways> read_plans() {
   return plans;
 }
 
-int score(planner::Planner& planner) {
+// False when the problem is refused.
+bool score(planner::Planner& planner, const planner::SearchProblem& problem, const std::string& name,
+           const std::map<std::string, Ways>& plans) {
   static planner::FirstSightings sightings;
   static planner::PathScorer scorer(sightings);
-  const std::map<std::string, Ways> plans = read_plans();
-  for (const ScoredCase& c : kCases) {
-    cross::PaperCase paper(c.row);
-    change(c, paper.problem());
-    const auto plan = plans.find(c.name);
-    if (plan == plans.end() || !prepare(planner, paper.problem())) {
-      return 1;
-    }
+  if (!prepare(planner, problem)) {
+    return false;
+  }
+  for (const auto& [word, ways] : plans) {
     std::vector<planner::WaypointPath> paths;
-    for (std::size_t m = 0; m < plan->second.size(); ++m) {
-      const planner::SearchAgent& agent = paper.problem().agents[m];
-      paths.push_back({plan->second[m], agent.speed_mps, agent.sight_radius_m});
+    for (std::size_t m = 0; m < ways.size(); ++m) {
+      const planner::SearchAgent& agent = problem.agents[m];
+      paths.push_back({ways[m], agent.speed_mps, agent.sight_radius_m});
     }
     const planner::PlanScore s = scorer.score(planner.cells(), planner.belief(), paths, kMaxUnseen);
-    std::printf("%s %.12g %.12g %.12g %.12g\n", c.name.c_str(), s.expected_time_s, s.expected_time_continuous_s,
-                s.expected_sub_prior_time_s, s.unseen_mass);
+    std::printf("%s %s %.12g %.12g %.12g %.12g\n", word.c_str(), name.c_str(), s.expected_time_s,
+                s.expected_time_continuous_s, s.expected_sub_prior_time_s, s.unseen_mass);
+  }
+  return true;
+}
+
+int score(planner::Planner& planner) {
+  Plans plans = read_plans();
+  for (const PlannedCase& c : kPlanned) {
+    cross::PaperCase paper(c.row);
+    change(c, paper.problem());
+    if (!score(planner, paper.problem(), c.name, plans[c.name])) {
+      return 1;
+    }
+  }
+  for (const cross::LargeRow& row : kLarge) {
+    const cross::LargeCase large(row);
+    if (!score(planner, large.problem(), row.name, plans[row.name])) {
+      return 1;
+    }
   }
   return 0;
 }

@@ -5,8 +5,8 @@
 
 namespace ivo::test {
 
-/// Of one mass: half a unit, and a double's own rounding.
-inline constexpr double kMassAgreement = 0.5 * planner::kMassUnit + 1e-15;
+/// Of one mass: half a unit, in fixed point as much again that the cell before has left, and a double's own rounding.
+inline constexpr double kMassAgreement = (planner::kFixedPoint ? 1.0 : 0.5) * planner::kMassUnit + 1e-15;
 /// Of a sum of `cells` masses.
 [[nodiscard]] constexpr double sum_agreement(int cells) { return 0.5 * planner::kMassUnit * cells + 1e-12; }
 

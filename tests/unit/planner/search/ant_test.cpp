@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <memory>
+#include <optional>
 #include <random>
+#include <vector>
 
 #include "planner/search/tour_scorer.hpp"
 #include "tests/support/agreement.hpp"
@@ -204,6 +207,207 @@ TEST_F(AntTest, WalksTheSameHoweverTheWorkIsSliced) {
       ASSERT_EQ(tour.unseen, whole.unseen);
     }
   }
+}
+
+// --- the jumps of an ant that looks ahead
+
+struct SlowJump {
+  Node to = -1;
+  double way_m = 0.0;
+  bool past_the_nearest = false;    // to another than the nearest node that shows anything
+  bool stopped_by_the_way = false;  // one more than twice as far would show more for its way
+};
+
+// Of the nodes up to twice as far as the nearest that shows anything, that which shows most for its way.
+SlowJump slow_jump(const World& world, int agent, Node from, const SeenMap& seen) {
+  const Graph& graph = world.graph;
+  const Belief& belief = world.belief;
+  constexpr double kNowhere = std::numeric_limits<double>::infinity();
+  std::vector<double> way_m(index(graph.nodes()), kNowhere);
+  way_m[index(from)] = 0.0;
+  for (bool shorter = true; shorter;) {
+    shorter = false;
+    for (Node n = 0; n < graph.nodes(); ++n) {
+      for (Edge e = graph.first_edge(n); e < graph.end_edge(n); ++e) {
+        const double by_here_m = way_m[index(n)] + graph.length_m(e);
+        if (in(graph.open_to(e), agent) && by_here_m < way_m[index(graph.head(e))]) {
+          way_m[index(graph.head(e))] = by_here_m;
+          shorter = true;
+        }
+      }
+    }
+  }
+  std::vector<Mass> shown(index(graph.nodes()));
+  double nearest_m = kNowhere;
+  for (Node n = 0; n < graph.nodes(); ++n) {
+    if (n == from || way_m[index(n)] == kNowhere) {
+      continue;
+    }
+    for_each_seen(world.cells, graph.position(n), world.sight.radius_m(agent), [&](Cell c) {
+      if (!seen.test(world.cells.column(c), world.cells.row(c))) {
+        shown[index(n)] += belief.has_sub_priors ? belief.sub_mass[index(agent)][index(c)] : belief.mass[index(c)];
+      }
+    });
+    if (shown[index(n)] > Mass{}) {
+      nearest_m = std::min(nearest_m, way_m[index(n)]);
+    }
+  }
+  SlowJump jump;
+  Eta best{};
+  Eta best_anywhere{};
+  for (Node n = 0; n < graph.nodes(); ++n) {
+    if (shown[index(n)] <= Mass{}) {
+      continue;
+    }
+    const double m = way_m[index(n)];
+    const Eta rate = eta_of(shown[index(n)], m);
+    best_anywhere = std::max(best_anywhere, rate);
+    if (m <= 2.0 * nearest_m && (jump.to < 0 || rate > best || (rate == best && m < jump.way_m))) {
+      jump = {.to = n, .way_m = m, .past_the_nearest = m > nearest_m, .stopped_by_the_way = false};
+      best = rate;
+    }
+  }
+  jump.stopped_by_the_way = best_anywhere > best;
+  return jump;
+}
+
+struct JumpTally {
+  int moves = 0;
+  int jumps = 0;
+  int past_the_nearest = 0;
+  int stopped_by_the_way = 0;
+  int given_up = 0;
+};
+
+// Walks a tour turn by turn, and asks at each whether the agent should have gone there.
+class LookingAhead {
+ public:
+  LookingAhead(const World& world, const AntParameters& parameters)
+      : world_(world), parameters_(parameters), lookahead_(std::make_unique<Lookahead>(world)) {
+    lookahead_->open();
+    lookahead_->start(parameters.looks_ahead, parameters.patience);
+    seen_->copy(world.belief.without_mass);
+    unseen_ = world.belief.whole;
+    for (int m = 0; m < world.graph.agents(); ++m) {
+      at_.push_back(m);
+      look(world.sight.from_node(m, m));
+    }
+    time_s_.resize(at_.size());
+    taken_.resize(at_.size());
+    given_up_.resize(at_.size());
+  }
+
+  void expect(const Tour& tour, JumpTally& tally) {
+    for (std::optional<int> agent = next_agent(); agent; agent = next_agent()) {
+      const EdgePath& path = tour.paths[index(*agent)];
+      lookahead_->begin(*agent, at_[index(*agent)]);
+      while (!lookahead_->done()) {
+        (void)lookahead_->advance(*seen_, 1000);
+      }
+      if (lookahead_->first_move() >= 0) {
+        ++tally.moves;
+        ASSERT_LT(taken_[index(*agent)], path.size());
+        ASSERT_EQ(path[taken_[index(*agent)]], lookahead_->first_move());
+        take(*agent, path);
+        continue;
+      }
+      const SlowJump jump = slow_jump(world_, *agent, at_[index(*agent)], *seen_);
+      if (jump.to < 0) {
+        ++tally.given_up;
+        given_up_[index(*agent)] = true;
+        continue;
+      }
+      ++tally.jumps;
+      tally.past_the_nearest += jump.past_the_nearest ? 1 : 0;
+      tally.stopped_by_the_way += jump.stopped_by_the_way ? 1 : 0;
+      double way_m = 0.0;
+      do {
+        ASSERT_LT(taken_[index(*agent)], path.size());
+        way_m += world_.graph.length_m(path[taken_[index(*agent)]]);
+        take(*agent, path);
+      } while (at_[index(*agent)] != jump.to && way_m < jump.way_m);
+      ASSERT_EQ(at_[index(*agent)], jump.to);
+      ASSERT_NEAR(way_m, jump.way_m, 1e-9);
+    }
+    for (std::size_t m = 0; m < at_.size(); ++m) {
+      ASSERT_EQ(taken_[m], tour.paths[m].size());
+    }
+    ASSERT_EQ(tour.unseen, unseen_);
+  }
+
+ private:
+  // The one whose path ends earliest.
+  [[nodiscard]] std::optional<int> next_agent() const {
+    std::optional<int> next;
+    for (int m = 0; m < world_.graph.agents(); ++m) {
+      if (!given_up_[index(m)] && (!next || time_s_[index(m)] < time_s_[index(*next)])) {
+        next = m;
+      }
+    }
+    const bool complete = is_complete(to_double(unseen_) / to_double(world_.belief.whole), parameters_.max_unseen_mass);
+    return complete ? std::nullopt : next;
+  }
+  void look(const SightView& view) {
+    for (const Swath& swath : view.swaths) {
+      seen_->look(swath, world_.sight.words(swath), [&](int row, std::uint64_t fresh) {
+        for_each_bit(fresh,
+                     [&](int bit) { unseen_ -= world_.belief.mass[index(seen_->cell(row, swath.first_byte, bit))]; });
+      });
+    }
+  }
+  void take(int agent, const EdgePath& path) {
+    const Edge e = path[taken_[index(agent)]++];
+    look(world_.sight.along_edge(agent, e));
+    time_s_[index(agent)] += world_.seconds_along(agent, e);
+    at_[index(agent)] = world_.graph.head(e);
+  }
+
+  const World& world_;
+  AntParameters parameters_;
+  std::unique_ptr<Lookahead> lookahead_;
+  std::unique_ptr<SeenMap> seen_ = std::make_unique<SeenMap>();
+  Mass unseen_{};
+  std::vector<Node> at_;
+  std::vector<Seconds> time_s_;
+  std::vector<std::size_t> taken_;  // edges
+  std::vector<bool> given_up_;
+};
+
+// A dense graph and a prior of a few spots, so that there is often nothing new in a node's neighbourhood.
+TEST_F(AntTest, JumpsToWhatShowsMostForItsWayWhenItLooksAhead) {
+  std::mt19937_64 random(55);
+  JumpTally tally;
+  int searches = 0;
+  for (int draw = 0; searches < 100; ++draw) {
+    ASSERT_LT(draw, 2000);
+    test::RandomSearch search(random);
+    SearchProblem& problem = search.problem();
+    std::vector<std::uint16_t> spots(16 * 12);
+    for (std::uint16_t& spot : spots) {
+      spot = random() % 12 == 0 ? static_cast<std::uint16_t>(1 + random() % 65'535) : std::uint16_t{0};
+    }
+    problem.prior = GreyView{spots, 16, 12, 1.0};
+    problem.graph.spacing_m = 0.9;
+    problem.colony.heuristic = Heuristic::kUnseen;
+    problem.colony.ant.looks_ahead = 1 + draw % Lookahead::kMostMoves;
+    for (SearchAgent& agent : problem.agents) {
+      agent.sight_radius_m = std::min(agent.sight_radius_m, 1.0);
+    }
+    if (!open(problem)) {
+      continue;
+    }
+    ++searches;
+    SCOPED_TRACE("draw " + std::to_string(draw));
+    Rng rng(1);
+    const Tour& tour = walk(problem, rng, 1 + draw % 300);
+    LookingAhead(parts().world, problem.colony.ant).expect(tour, tally);
+    ASSERT_FALSE(HasFatalFailure());
+  }
+  EXPECT_GT(tally.moves, 300);
+  EXPECT_GT(tally.jumps, 100);
+  EXPECT_GT(tally.past_the_nearest, 20);
+  EXPECT_GT(tally.stopped_by_the_way, 10);
+  EXPECT_GT(tally.given_up, 5);
 }
 
 // --- the tour's exact score

@@ -5,14 +5,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <random>
 #include <vector>
 
 #include "planner/search/ant.hpp"
+#include "tests/support/drawn_map.hpp"
 #include "tests/support/m1.hpp"
 #include "tests/support/random_search.hpp"
 #include "tests/support/shared_planner.hpp"
+#include "tests/support/star.hpp"
 #include "tests/support/swath_cells.hpp"
 
 namespace ivo::planner {
@@ -25,9 +28,11 @@ constexpr double kRounding = kFixedPoint ? 1e-6 : 1e-12;
 
 class SlowLookahead {
  public:
-  SlowLookahead(const World& world, int agent, double patience)
+  /// `most_rows`: Lookahead::kUndo.
+  SlowLookahead(const World& world, int agent, double patience, int most_rows = Lookahead::kUndo)
       : world_(world),
         agent_(agent),
+        most_rows_(most_rows),
         patience_s_(patience * world.graph.spacing_m() / world.speeds_mps[index(agent)]) {}
 
   [[nodiscard]] double mass_of(Cell c) const {
@@ -35,24 +40,34 @@ class SlowLookahead {
     return to_double(belief.has_sub_priors ? belief.sub_mass[index(agent_)][index(c)] : belief.mass[index(c)]);
   }
 
-  /// Of the edge and the best moves after it.
-  double value(Edge e, double from_s, int moves, SeenCells seen) const {
+  /// Of the edge and the best moves after it, `rows` of the seen map changed before it.
+  double value(Edge e, double from_s, int moves, SeenCells seen, int rows = 0) const {
     const SightView view = world_.sight.along_edge(agent_, e);
     const int points = world_.sight.points(e);
     double value = 0.0;
-    test::for_each_cell(world_.cells, world_.sight, view, [&](Cell c, const Swath& swath) {
-      if (!seen[index(c)]) {
-        seen[index(c)] = true;
-        const int middle = (swath.first_point + swath.last_point) / 2;
-        const double time_s = from_s + to_double(world_.pace(agent_, e)) * (view.reversed ? points - middle : middle);
-        const double eighths = std::floor(time_s / (patience_s_ / 8.0));
-        value += eighths < 64.0 ? mass_of(c) * std::exp(-eighths / 8.0) : 0.0;
+    for (std::size_t i = 0; i < view.size(); ++i) {
+      const Swath& swath = view.at(i);
+      const int middle = (swath.first_point + swath.last_point) / 2;
+      const double time_s = from_s + to_double(world_.pace(agent_, e)) * (view.reversed ? points - middle : middle);
+      const double eighths = std::floor(time_s / (patience_s_ / 8.0));
+      for (int row = 0; row < swath.rows; ++row) {
+        bool changed = false;
+        for_each_bit(world_.sight.words(swath)[row], [&](int bit) {
+          const Cell c = world_.cells.at(8 * swath.first_byte + bit, swath.first_row + row);
+          if (!seen[index(c)]) {
+            seen[index(c)] = rows < most_rows_;
+            changed = true;
+            value += eighths < 64.0 ? mass_of(c) * std::exp(-eighths / 8.0) : 0.0;
+          }
+        });
+        rows += changed && rows < most_rows_ ? 1 : 0;
       }
-    });
+    }
     if (moves > 1) {
       double best = 0.0;
       for (const Edge next : promising(world_.graph.head(e), seen)) {
-        best = std::max(best, this->value(next, from_s + to_double(world_.seconds_along(agent_, e)), moves - 1, seen));
+        const double then_s = from_s + to_double(world_.seconds_along(agent_, e));
+        best = std::max(best, this->value(next, then_s, moves - 1, seen, rows));
       }
       value += best;
     }
@@ -93,6 +108,7 @@ class SlowLookahead {
  private:
   const World& world_;
   int agent_;
+  int most_rows_;
   double patience_s_;
   mutable bool tied_ = false;
 };
@@ -116,6 +132,14 @@ void wander(const World& world, int agent, std::mt19937_64& random, Node& here, 
     test::for_each_cell(world.cells, world.sight, world.sight.along_edge(agent, e),
                         [&](Cell c, const Swath&) { cells[index(c)] = true; });
     here = world.graph.head(e);
+  }
+}
+
+void expect_alike(const World& world, const SeenMap& a, const SeenMap& b) {
+  for (int row = 0; row < world.cells.rows(); ++row) {
+    for (int byte = 0; 8 * byte < world.cells.columns(); ++byte) {
+      ASSERT_EQ(a.window(row, byte), b.window(row, byte)) << "row " << row;
+    }
   }
 }
 
@@ -147,11 +171,8 @@ TEST(Lookahead, TakesTheFirstMoveOfTheBestSequence) {
     while (!lookahead->done()) {
       ASSERT_GT(lookahead->advance(*seen, 1 + draw % 50), 0);
     }
-    for (int row = 0; row < world.cells.rows(); ++row) {
-      for (int byte = 0; 8 * byte < world.cells.columns(); ++byte) {
-        ASSERT_EQ(seen->window(row, byte), before->window(row, byte)) << "row " << row;
-      }
-    }
+    expect_alike(world, *seen, *before);
+    ASSERT_FALSE(HasFatalFailure());
     const SlowLookahead slow(world, agent, patience);
     double best = 0.0;
     for (const Edge e : slow.promising(here, cells)) {
@@ -168,6 +189,52 @@ TEST(Lookahead, TakesTheFirstMoveOfTheBestSequence) {
   }
   EXPECT_GT(decided, 40);
   EXPECT_GT(nothing_new, 0);
+}
+
+// Discs of 600 rows: a move changes more rows than can be undone, and the way back shows what stayed unseen.
+TEST(Lookahead, LeavesTheSeenMapAsItWasAlsoWhereItRunsOutOfUndo) {
+  const test::DrawnMap map(250.0, 250.0, 0.25);
+  const test::Star star({125.0, 125.0}, 5, 100.0);
+  const GraphTable table = star.table();
+  const std::vector<GaussianComponent> gaussians = {{{150.0, 200.0}, 60.0, 1.0}};
+  SearchProblem problem;
+  problem.map = map.view();
+  problem.cell_m = 0.25;
+  problem.graph_table = &table;
+  problem.prior = std::span<const GaussianComponent>(gaussians);
+  problem.agents.resize(1);
+  problem.agents[0].body.start = {125.0, 125.0};
+  problem.agents[0].sight_radius_m = 75.0;
+  ASSERT_FALSE(test::shared_planner().prepare(problem));
+  const World& world = test::shared_planner().world();
+  const auto lookahead = std::make_unique<Lookahead>(world);
+  const auto seen = std::make_unique<SeenMap>();
+  for (const int moves : {2, Lookahead::kMostMoves}) {
+    SCOPED_TRACE(moves);
+    seen->copy(world.belief.without_mass);
+    lookahead->open();
+    lookahead->start(moves, 10.0);
+    lookahead->begin(0, 0);
+    while (!lookahead->done()) {
+      ASSERT_GT(lookahead->advance(*seen, 5000), 0);
+    }
+    expect_alike(world, *seen, world.belief.without_mass);
+    ASSERT_FALSE(HasFatalFailure());
+
+    const SlowLookahead slow(world, 0, 10.0);
+    const SlowLookahead with_room(world, 0, 10.0, std::numeric_limits<int>::max());
+    const SeenCells cells(index(world.cells.count()));
+    double best = 0.0;
+    double best_with_room = 0.0;
+    for (const Edge e : slow.promising(0, cells)) {
+      best = std::max(best, slow.value(e, 0.0, moves, cells));
+      best_with_room = std::max(best_with_room, with_room.value(e, 0.0, moves, cells));
+    }
+    ASSERT_FALSE(slow.tied());
+    EXPECT_GT(best, best_with_room + 0.001);  // there is more to undo than room for it
+    ASSERT_GE(lookahead->first_move(), 0);
+    EXPECT_NEAR(slow.value(lookahead->first_move(), 0.0, moves, cells), best, kRounding);
+  }
 }
 
 TEST(Lookahead, SeesFurtherThanAGreedyStep) {

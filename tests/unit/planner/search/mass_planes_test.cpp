@@ -5,6 +5,7 @@
 #include <random>
 #include <vector>
 
+#include "tests/support/areas.hpp"
 #include "tests/support/m1.hpp"
 #include "tests/support/shared_planner.hpp"
 
@@ -74,6 +75,20 @@ TEST(MassPlanes, AreExactWhereEveryCellHasTheSameMass) {
     const double exact = exact_sum(box);
     EXPECT_NEAR(planes_sum(box), exact,
                 1e-9 * exact + 2 * kMassUnit * (box.end_column - box.first_column) * (box.end_row - box.first_row));
+  }
+}
+
+TEST(MassPlanes, AreOneAlsoWhereEqualSharesAreRounded) {
+  test::M1 m1(1);
+  m1.problem().agents[0].preferred.resize(1);
+  m1.problem().agents[0].preferred[0] = test::rectangle(20.0, 20.0, 33.0, 37.0);
+  ASSERT_FALSE(test::shared_planner().prepare(m1.problem()));
+  const Belief& belief = test::shared_planner().belief();
+  for (std::size_t m = 0; m < 2; ++m) {
+    planes().build(test::shared_planner().cells(), belief, belief.sub_mass[m]);
+    EXPECT_EQ(planes().count(), 1) << "agent " << m;
+    const Cells& cells = test::shared_planner().cells();
+    EXPECT_NEAR(planes_sum({0, 0, cells.columns(), cells.rows()}), 0.5, 1e-5) << "agent " << m;
   }
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/support/drawn_map.hpp"
+#include "tests/support/star.hpp"
 
 namespace ivo::planner {
 namespace {
@@ -134,6 +135,27 @@ TEST_F(GraphTableTest, OverACapacityIsRefusedByName) {
   const Refusal edges = loaded_->load(table(), agents_);
   EXPECT_EQ(edges.code, RefusalCode::kTooManyEdges);
   EXPECT_EQ(edges.value, limits::kEdges + 1);
+}
+
+// What weighs a node's neighbours has room for so many.
+TEST(GraphTable, WithANodeOfTooManyNeighboursIsRefusedByName) {
+  const auto loaded = std::make_unique<Graph>();
+  GraphAgents agents;
+  agents.resize(1);
+  agents[0].start = {100.0, 100.0};
+  for (const int neighbours : {limits::kNeighbours, limits::kNeighbours + 1}) {
+    const test::Star star(agents[0].start, neighbours, 50.0);
+    const Refusal refusal = loaded->load(star.table(), agents);
+    if (neighbours == limits::kNeighbours) {
+      EXPECT_FALSE(refusal);
+      EXPECT_EQ(loaded->edges(), 2 * neighbours);
+      continue;
+    }
+    EXPECT_EQ(refusal.code, RefusalCode::kTooManyNeighbours);
+    EXPECT_EQ(refusal.value, neighbours);
+    EXPECT_EQ(refusal.limit, limits::kNeighbours);
+    EXPECT_EQ(loaded->nodes(), 0);
+  }
 }
 
 }  // namespace
