@@ -51,7 +51,7 @@ inline constexpr int kSwaths = Planner::kSwaths;            ///< of all nodes an
 inline constexpr int kSightEvents = Planner::kSightEvents;  ///< cells first seen along an edge, of the edges kept ready
 inline constexpr std::size_t kPlannerBytes = Planner::kPlannerBytes;  ///< at most: the planner object with all in it
 inline constexpr int kEdges = kNodes * 56;     ///< directed edges: a 7x7 neighbourhood has 48, merged nodes more
-inline constexpr int kNeighbours = 128;        ///< of one node; a graph that is built stays below (graph_build.cpp)
+inline constexpr int kNeighbours = 128;        ///< of one node; a graph that is built has no more (graph_build.cpp)
 inline constexpr int kWaypoints = 2 * kNodes;  ///< of one agent's path: jumps may pass a node again
 
 inline constexpr int kPolygonVertices = 64;  ///< of one preferred or restricted area

@@ -7,7 +7,7 @@
 
 namespace ivo::firmware {
 
-/// The largest object of the product: static, so that its pages are there from the start and belong to nobody's heap.
+/// The largest object of the product: static, so that it belongs to nobody's heap.
 [[nodiscard]] planner::Planner& the_planner();
 
 struct PlannerDeleter {

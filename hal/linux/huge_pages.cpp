@@ -2,17 +2,15 @@
 
 #include <sys/mman.h>
 
-#include <cstdint>
+#include <memory>
 
 namespace ivo::hal {
 
 void prefer_huge_pages(void* object, std::size_t bytes) noexcept {
-  constexpr std::uintptr_t kPage = 4096;
-  const auto first = reinterpret_cast<std::uintptr_t>(object);
-  const std::uintptr_t begin = (first + kPage - 1) / kPage * kPage;
-  const std::uintptr_t end = (first + bytes) / kPage * kPage;
-  if (begin < end) {
-    (void)madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+  constexpr std::size_t kPage = std::size_t{2} << 20U;
+  void* begin = object;
+  if (std::align(kPage, kPage, begin, bytes) != nullptr) {
+    (void)madvise(begin, bytes / kPage * kPage, MADV_HUGEPAGE);
   }
 }
 

@@ -24,6 +24,16 @@ inline constexpr int kVisibilityBits = 18;
 [[nodiscard]] constexpr Weight weight_of(Trail trail, Visibility visibility) noexcept {
   return (static_cast<std::uint64_t>(trail) * visibility) >> (kTrailBits + kVisibilityBits - 38);
 }
+/// (value / best)^beta of two sums in one unit, `best` the larger one and above 0.
+[[nodiscard]] constexpr Visibility visibility_of(std::uint64_t value, std::uint64_t best, int beta) noexcept {
+  const std::uint64_t ratio = (value << 16U) / best;
+  std::uint64_t power = 1U << 16U;
+  for (int k = 0; k < beta; ++k) {
+    power = power * ratio >> 16U;
+  }
+  const std::uint64_t units = power << (kVisibilityBits - 16);
+  return units == 0 ? 1U : static_cast<Visibility>(units);
+}
 /// Uniform in [0, sum).
 [[nodiscard]] constexpr Weight draw_below(Weight sum, Rng& rng) noexcept {
   const std::uint64_t part = rng.next() >> 32U;
@@ -38,6 +48,15 @@ using Weight = double;
 
 [[nodiscard]] constexpr Visibility visibility_from(double value) noexcept { return value; }
 [[nodiscard]] constexpr Weight weight_of(Trail trail, Visibility visibility) noexcept { return trail * visibility; }
+/// (value / best)^beta of two sums in one unit, `best` the larger one and above 0.
+[[nodiscard]] constexpr Visibility visibility_of(double value, double best, int beta) noexcept {
+  const double ratio = value / best;
+  double power = 1.0;
+  for (int k = 0; k < beta; ++k) {
+    power *= ratio;
+  }
+  return power;
+}
 /// Uniform in [0, sum).
 [[nodiscard]] constexpr Weight draw_below(Weight sum, Rng& rng) noexcept { return rng.unit() * sum; }
 

@@ -93,7 +93,7 @@ int Ant::look_from_starts(int rows) noexcept {
   int work = 1;
   while (work <= rows) {
     if (!walk_.done()) {
-      const ViewWalk::Part part = walk_.next(world_.sight, rows - work + 1);
+      const ViewWalk::Part part = walk_.next(world_.sight, rows_at_once(rows - work + 1));
       work += look(part.swath, part.words, 0, 0);
     } else if (++agent_ < world_.graph.agents()) {
       walk_.begin(world_.sight.from_node(agent_, agent_));
@@ -267,7 +267,7 @@ int Ant::jump(int rows) noexcept {
     walk_.begin(n == at_[index(agent_)] ? SightView{} : view);  // what is in sight from here has been seen
   }
   phase_ = Phase::kLookAtNode;
-  return work + look_at_node(rows);
+  return work + look_at_node(std::max(1, rows - work));
 }
 
 int Ant::look_at_node(int rows) noexcept {
@@ -313,7 +313,7 @@ int Ant::look_around(int rows) noexcept {
     } else if (++jump_edge_ == world_.graph.end_edge(jump_node_)) {
       phase_ = Phase::kJump;
       return work;
-    } else if (in(world_.graph.open_to(jump_edge_), agent_)) {
+    } else if (++work; in(world_.graph.open_to(jump_edge_), agent_)) {
       walk_.begin(world_.sight.along_edge(agent_, jump_edge_));
     }
   }
@@ -323,8 +323,8 @@ int Ant::look_around(int rows) noexcept {
 // Looks on along the walk, up to the first row that shows something new.
 bool Ant::finds_new(int rows, int& work) noexcept {
   while (!walk_.done() && work <= rows) {
-    const auto [swath, words, ends_swath] = walk_.next(world_.sight, rows - work + 1);
-    work += work::rows_searched(swath.rows);
+    const auto [swath, words, ends_swath] = walk_.next(world_.sight, rows_at_once(rows - work + 1));
+    work += std::max(1, work::rows_searched(swath.rows));
     if (seen_.any_new(swath, words)) {
       return true;
     }
@@ -371,7 +371,7 @@ int Ant::move(int rows) noexcept {
   const int points = world_.sight.points(e);
   int work = 1;
   while (!walk_.done() && work <= rows) {
-    const ViewWalk::Part part = walk_.next(world_.sight, rows - work + 1);
+    const ViewWalk::Part part = walk_.next(world_.sight, rows_at_once(rows - work + 1));
     const Swath& swath = part.swath;
     work += look(swath, part.words, walk_.reversed() ? points - swath.last_point : swath.first_point,
                  walk_.reversed() ? points - swath.first_point : swath.last_point);

@@ -3,6 +3,7 @@
 // lower and an upper bound of it fall out on the way.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -14,7 +15,9 @@
 #include "planner/search/tour.hpp"
 #include "planner/search/trails.hpp"
 #include "planner/search/unseen_heuristic.hpp"
+#include "planner/search/work.hpp"
 #include "planner/search/world.hpp"
+#include "planner/world/view_walk.hpp"
 
 namespace ivo::planner {
 
@@ -37,8 +40,8 @@ class Ant {
   /// in parts.
   void start(const AntParameters& parameters, Heuristic heuristic, int beta) noexcept;
 
-  /// Does a part of the work: a choice, up to `rows` rows of a move or of a look ahead, one node of a jump search.
-  /// Returns the work done, in units (planner.hpp). Nothing when done.
+  /// Does a part of the work: a choice, up to `rows` rows of a move, of a look ahead or of a jump's look, one node of a
+  /// jump search. Returns the work done, in units (planner.hpp). Nothing when done.
   int advance(Rng& rng, int rows) noexcept;
 
   [[nodiscard]] bool done() const noexcept { return phase_ == Phase::kDone; }
@@ -100,6 +103,9 @@ class Ant {
   void visit(Node n) noexcept { visited_[index(n)] = ant_number_; }
   [[nodiscard]] bool visited(Node n) const noexcept { return visited_[index(n)] == ant_number_; }
   [[nodiscard]] bool finds_new(int rows, int& work) noexcept;
+  [[nodiscard]] int rows_at_once(int rows) const noexcept {
+    return std::min(rows, heuristic_ == Heuristic::kMts ? work::kRowsAtOnceBySectors : work::kRowsAtOnce);
+  }
 
   const World world_;
   const Trails& trails_;

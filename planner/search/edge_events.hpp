@@ -37,8 +37,9 @@ class EdgeEvents {
   /// Forgets all: another mission. Cost: the edges.
   void clear() noexcept;
 
-  /// Works towards having the events of `e`, the edge from `tail`, for `agent`: up to about `rows` rows of its swaths.
-  /// Returns the work done, in rows; 0 when they were ready.
+  /// Works towards having the events of `e`, the edge from `tail`, for `agent`: about `rows` units of work, within a
+  /// cell's points if it must; to begin and to end an edge is a part each. Returns the work done; 0 when they were
+  /// ready.
   int prepare(int agent, Node tail, Edge e, int rows) noexcept;
   /// True when the edge can be made ready and no other has to make room for it.
   [[nodiscard]] bool has_room_for(int agent, Edge e) const noexcept {

@@ -31,9 +31,8 @@ class JumpSearch {
   [[nodiscard]] double distance_m(Node n) const noexcept { return distance_m_[index(n)]; }
   /// The node before it.
   [[nodiscard]] Node before(Node n) const noexcept { return before_[index(n)]; }
-  [[nodiscard]] int work() const noexcept {
-    return work_;
-  }  ///< edges looked at since start, and what else takes as long
+  /// Edges looked at since start, and what else takes as long.
+  [[nodiscard]] int work() const noexcept { return work_; }
 
  private:
   static constexpr std::int32_t kOutside = -1;

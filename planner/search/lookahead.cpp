@@ -1,6 +1,7 @@
 #include "planner/search/lookahead.hpp"
 
 #include <algorithm>
+#include <bit>
 
 #include "planner/numeric/exponential.hpp"
 #include "planner/search/work.hpp"
@@ -120,7 +121,7 @@ int Lookahead::follow(SeenMap& seen, int rows) noexcept {
   const int points = world_.sight.points(e);
   int work = 0;
   while (!walk_.done() && work < rows) {
-    const auto [swath, words, ends_swath] = walk_.next(world_.sight, rows - work);
+    const auto [swath, words, ends_swath] = walk_.next(world_.sight, std::min(rows - work, work::kRowsAtOnce));
     const int byte = swath.first_byte;
     int cells = 0;
     seen.look(swath, words, [&](int row, std::uint64_t fresh) {

@@ -8,6 +8,7 @@
 
 #include "planner/search/unseen_heuristic.hpp"
 #include "planner/search/world.hpp"
+#include "planner/world/view_walk.hpp"
 
 namespace ivo::planner {
 
@@ -26,13 +27,12 @@ class Lookahead {
   /// Moves from 1 to kMostMoves.
   void start(int moves, double patience) noexcept;
 
-  /// An agent looks from a node, `from_s` after the start of nothing: times are relative.
+  /// An agent looks from a node; times are from now on.
   void begin(int agent, Node here) noexcept;
   /// Up to about `rows` rows. `seen` is changed while it works and as before when it is done. Returns the work done.
   int advance(SeenMap& seen, int rows) noexcept;
   [[nodiscard]] bool done() const noexcept { return depth_ < 0; }
-  /// When done: the first move, -1 when no edge of the node shows anything new that is worth
-  /// the resolution of a mass.
+  /// When done: the first move, -1 when no edge of the node shows anything new that is worth the resolution of a mass.
   [[nodiscard]] Edge first_move() const noexcept { return levels_[0].chosen; }
 
  private:

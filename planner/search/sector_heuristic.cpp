@@ -1,6 +1,7 @@
 #include "planner/search/sector_heuristic.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "planner/numeric/exponential.hpp"
@@ -45,7 +46,7 @@ void SectorHeuristic::open() noexcept {
 }
 
 int SectorHeuristic::start_tiles(int rows) noexcept {
-  const int count = std::min(rows * work::kTilesCopied, tiles_ - started_tiles_);
+  const int count = std::min(std::max(1, rows * work::kTilesCopied / priors_), tiles_ - started_tiles_);
   for (int m = 0; m < priors_; ++m) {
     std::copy_n(whole_[index(m)].begin() + started_tiles_, count, unseen_[index(m)].begin() + started_tiles_);
   }
@@ -178,22 +179,7 @@ void SectorHeuristic::close() noexcept {
 }
 
 Visibility SectorHeuristic::visibility(Edge e, int beta) const noexcept {
-  const int i = e - first_edge_;
-#if IVO_PLANNER_FIXED
-  const std::uint64_t ratio = (sums_[index(i)] << 16U) / best_;
-  std::uint64_t power = 1U << 16U;
-  for (int k = 0; k < beta; ++k) {
-    power = power * ratio >> 16U;
-  }
-  return static_cast<Visibility>(std::max<std::uint64_t>(1, power << (kVisibilityBits - 16)));
-#else
-  const double ratio = sums_[index(i)] / best_;
-  double power = 1.0;
-  for (int k = 0; k < beta; ++k) {
-    power *= ratio;
-  }
-  return power;
-#endif
+  return visibility_of(sums_[index(e - first_edge_)], best_, beta);
 }
 
 }  // namespace ivo::planner

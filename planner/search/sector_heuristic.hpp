@@ -44,7 +44,6 @@ class SectorHeuristic {
  private:
   static constexpr int kTile = 8;
   static constexpr int kTilesMost = limits::kCells / 16 + 64;
-  static constexpr int kNeighbours = limits::kNeighbours;
   static constexpr int kBins = 64;  // of directions
   static constexpr int kDiscounts = 8192;
   static constexpr int kUnitsACell = 16;  // of length
@@ -84,9 +83,10 @@ class SectorHeuristic {
   int neighbours_ = 0;
   std::int32_t here_x_ = 0;
   std::int32_t here_y_ = 0;
-  std::array<Way, kNeighbours> ways_{};
-  std::array<Sum, kNeighbours> sums_{};
-  std::array<std::array<std::uint64_t, kNeighbours / 64>, kBins> in_bin_{};  // neighbours whose sector meets the bin
+  std::array<Way, limits::kNeighbours> ways_{};
+  std::array<Sum, limits::kNeighbours> sums_{};
+  std::array<std::array<std::uint64_t, limits::kNeighbours / 64>, kBins>
+      in_bin_{};  // neighbours whose sector meets the bin
   Sum best_{};
 };
 

@@ -1,6 +1,7 @@
 #include "planner/search/tour_scorer.hpp"
 
 #include <algorithm>
+#include <bit>
 
 #include "planner/search/work.hpp"
 

@@ -1,6 +1,9 @@
 // The exact cost of an ant's tour: every edge's first sightings replayed (Eq. 8 and 10), in parts.
 #pragma once
 
+#include <array>
+#include <cstdint>
+
 #include "planner/search/edge_events.hpp"
 #include "planner/search/expected_time.hpp"
 #include "planner/search/first_sightings.hpp"

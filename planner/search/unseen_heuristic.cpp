@@ -1,6 +1,7 @@
 #include "planner/search/unseen_heuristic.hpp"
 
 #include <algorithm>
+#include <bit>
 
 #include "planner/numeric/lattice.hpp"
 #include "planner/search/work.hpp"
@@ -14,7 +15,7 @@ int UnseenMass::advance(const SeenMap& seen, int rows) noexcept {
   Mass unseen{};
   int work = 0;
   while (!walk_.done() && work < rows) {
-    const auto [swath, words, ends_swath] = walk_.next(world_.sight, rows - work);
+    const auto [swath, words, ends_swath] = walk_.next(world_.sight, std::min(rows - work, work::kRowsAtOnce));
     int cells = 0;
     for (int i = 0; i < swath.rows; ++i) {
       const std::uint64_t fresh = words[i] & ~seen.window(swath.first_row + i, swath.first_byte);
@@ -70,25 +71,8 @@ int UnseenHeuristic::weigh(const SeenMap& seen, int rows) noexcept {
 }
 
 Visibility UnseenHeuristic::visibility(Edge e, int beta) const noexcept {
-  if (best_ <= Eta{}) {
-    return Visibility{};
-  }
   const Eta eta = etas_[index(e - first_)];
-#if IVO_PLANNER_FIXED
-  const std::uint64_t ratio = (eta << 16U) / best_;
-  std::uint64_t power = 1U << 16U;
-  for (int k = 0; k < beta; ++k) {
-    power = power * ratio >> 16U;
-  }
-  return eta > 0 ? static_cast<Visibility>(std::max<std::uint64_t>(1, power << (kVisibilityBits - 16))) : Visibility{};
-#else
-  const double ratio = eta / best_;
-  double power = 1.0;
-  for (int k = 0; k < beta; ++k) {
-    power *= ratio;
-  }
-  return eta > 0.0 ? power : 0.0;
-#endif
+  return eta > Eta{} ? visibility_of(eta, best_, beta) : Visibility{};
 }
 
 }  // namespace ivo::planner

@@ -3,9 +3,6 @@
 // (tests/cross/slice_costs), so that slices of equal budgets are of equal length whatever they do.
 #pragma once
 
-#include <algorithm>
-#include <cstdlib>
-
 namespace ivo::planner::work {
 
 // Ants.
@@ -18,6 +15,9 @@ namespace ivo::planner::work {
 [[nodiscard]] constexpr int rows_shown(int rows, int new_cells) noexcept { return rows + new_cells * 2 / 5; }
 [[nodiscard]] constexpr int rows_searched(int rows) noexcept { return rows * 2 / 5; }
 [[nodiscard]] constexpr int settled(int edges) noexcept { return 7 + edges * 2 / 3; }
+/// Rows taken between two looks at the budget: where all is new a row is up to 27 units, or 150 by sectors.
+inline constexpr int kRowsAtOnce = 64;
+inline constexpr int kRowsAtOnceBySectors = 4;
 inline constexpr int kMoveEnd = 38;
 inline constexpr int kBytesCopied = 64;  // for one unit
 [[nodiscard]] constexpr int bytes(int count) noexcept { return count / kBytesCopied; }

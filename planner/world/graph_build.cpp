@@ -186,7 +186,7 @@ void Graph::collect_window(int square, Node n) noexcept {
 // A node's neighbourhood is that of all its squares; a start's own square counts too, though another node may stand in
 // it.
 int Graph::collect_neighbours(Node n) noexcept {
-  // Places closer than h/4 to one node lie in two by two squares at most.
+  // Squares that merge into one node are within two by two: together their windows are a square wider each way.
   static_assert((2 * kWindow + 2) * (2 * kWindow + 2) + limits::kAgents <= limits::kNeighbours);
   scratch_size_ = 0;
   if (n < agents_) {

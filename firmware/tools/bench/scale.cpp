@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 
 #include "config/limits.hpp"
 #include "firmware/tools/bench/bench.hpp"

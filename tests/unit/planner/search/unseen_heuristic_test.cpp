@@ -200,7 +200,10 @@ TEST(UnseenHeuristic, WeighsEveryNeighbour) {
   const auto sectors = std::make_unique<SectorHeuristic>(world);
   sectors->open();
   sectors->start();
-  sectors->begin(0, 0);
+  while (!sectors->started()) {
+    (void)sectors->start_tiles(1000);
+  }
+  (void)sectors->begin(0, 0);
   while (!sectors->done()) {
     (void)sectors->advance(1000);
   }
