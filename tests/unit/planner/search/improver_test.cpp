@@ -10,7 +10,7 @@
 #include "planner/world/collision.hpp"
 #include "tests/support/agreement.hpp"
 #include "tests/support/m1.hpp"
-#include "tests/support/random_search.hpp"
+#include "tests/support/random_searches.hpp"
 #include "tests/support/shared_planner.hpp"
 
 namespace ivo::planner {
@@ -116,16 +116,6 @@ int search_and_check(const SearchProblem& problem, Plan& plan) {
   return plans;
 }
 
-// All but starts and speeds: the agents may take over each other's ways.
-void make_alike(SearchProblem& problem) {
-  for (SearchAgent& agent : problem.agents) {
-    agent.body.kind = problem.agents[0].body.kind;
-    agent.body.footprint_radius_m = problem.agents[0].body.footprint_radius_m;
-    agent.body.restricted.clear();
-    agent.sight_radius_m = problem.agents[0].sight_radius_m;
-  }
-}
-
 TEST(Improver, ShowsOnlyPlansThatCanBeFollowedAreWorthWhatIsSaidAndGetBetter) {
   std::mt19937_64 random(61);
   static Plan plan;
@@ -139,7 +129,7 @@ TEST(Improver, ShowsOnlyPlansThatCanBeFollowedAreWorthWhatIsSaidAndGetBetter) {
     test::RandomSearch search(random);
     search.problem().colony.generations = 14;
     if (draw % 2 == 0) {
-      make_alike(search.problem());
+      test::make_alike(search.problem());
     }
     if (test::shared_planner().prepare(search.problem())) {
       continue;

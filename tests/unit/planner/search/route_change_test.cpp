@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "tests/support/m1.hpp"
-#include "tests/support/random_search.hpp"
+#include "tests/support/random_searches.hpp"
 #include "tests/support/shared_planner.hpp"
 
 namespace ivo::planner {
@@ -141,35 +141,18 @@ class Rig {
 
 Rig& rig() { return Rig::get(); }
 
-// They may take over each other's legs.
-void make_alike(SearchProblem& problem) {
-  for (SearchAgent& agent : problem.agents) {
-    agent.body.kind = problem.agents[0].body.kind;
-    agent.body.footprint_radius_m = problem.agents[0].body.footprint_radius_m;
-    agent.body.restricted.clear();
-    agent.sight_radius_m = problem.agents[0].sight_radius_m;
-  }
-}
-
 template <class OnSearch>
 void on_random_searches(std::uint64_t seed, int count, OnSearch&& on_search) {
-  std::mt19937_64 random(seed);
-  int searches = 0;
-  for (int draw = 0; searches < count; ++draw) {
-    ASSERT_LT(draw, 20 * count);
-    test::RandomSearch search(random);
+  const auto opens = [](int draw, SearchProblem& problem) {
     if (draw % 2 == 0) {
-      make_alike(search.problem());
+      test::make_alike(problem);
     }
-    if (test::shared_planner().prepare(search.problem()) || !rig().open(search.problem())) {
-      continue;
-    }
-    ++searches;
-    SCOPED_TRACE("draw " + std::to_string(draw));
+    return !test::shared_planner().prepare(problem) && rig().open(problem);
+  };
+  test::on_random_searches(seed, count, opens, [&](const SearchProblem&, std::mt19937_64& random) {
     rig().draw_route(random);
     on_search(random);
-    ASSERT_FALSE(testing::Test::HasFailure());
-  }
+  });
 }
 
 // Half of those that can be made are accepted. Returns how many there were.

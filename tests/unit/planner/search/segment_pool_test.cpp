@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "tests/support/random_search.hpp"
+#include "tests/support/random_searches.hpp"
 #include "tests/support/shared_planner.hpp"
 
 namespace ivo::planner {
@@ -19,19 +19,10 @@ SegmentPool& pool() {
 // Prepares searches drawn at random and opens the pool on them.
 template <class OnSearch>
 void on_random_searches(std::uint64_t seed, int count, OnSearch&& on_search) {
-  std::mt19937_64 random(seed);
-  int searches = 0;
-  for (int draw = 0; searches < count; ++draw) {
-    ASSERT_LT(draw, 20 * count);
-    test::RandomSearch search(random);
-    if (test::shared_planner().prepare(search.problem()) || !pool().open()) {
-      continue;
-    }
-    ++searches;
-    SCOPED_TRACE("draw " + std::to_string(draw));
-    on_search(search.problem(), random);
-    ASSERT_FALSE(testing::Test::HasFailure());
-  }
+  const auto opens = [](int, const SearchProblem& problem) {
+    return !test::shared_planner().prepare(problem) && pool().open();
+  };
+  test::on_random_searches(seed, count, opens, on_search);
 }
 
 Place anywhere(const SegmentedMap& map, std::mt19937_64& random) {
