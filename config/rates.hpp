@@ -11,11 +11,14 @@ using std::chrono_literals::operator""ms;
 using std::chrono_literals::operator""us;
 using std::chrono_literals::operator""s;
 
-inline constexpr Duration kCycle = 2ms;                     // 500 Hz: the control loop and SYNC
+inline constexpr Duration kCycle = 2ms;                     // 500 Hz: control loop and SYNC, unless the robot says 1 ms
+inline constexpr Duration kControlwordRefresh = 50ms;       // of a layout whose controlwords go out when they change
 inline constexpr Duration kMasterHeartbeat = 50ms;          // our heartbeat on the bus (1017h of the master)
 inline constexpr Duration kMasterHeartbeatTimeout = 150ms;  // drives stop when ours is this late (1016h of each drive)
 inline constexpr Duration kDriveHeartbeat = 50ms;           // each drive's heartbeat (1017h of each drive)
 inline constexpr Duration kDriveHeartbeatTimeout = 150ms;   // a drive is lost when its heartbeat is this late
+inline constexpr Duration kTransmitAge = 4ms;               // a frame that has not left by then is not sent any more
+inline constexpr Duration kTransmitTimeout = 20ms;          // nothing leaves for so long: the bus is lost
 inline constexpr Duration kFeedbackTimeout = 10ms;          // five SYNCs without the TPDO of a drive: it is lost
 inline constexpr Duration kBootTimeout = 5s;                // from reset to boot-up message
 inline constexpr Duration kSdoTimeout = 500ms;  // real drives answer in 6 to over 20 ms; shorter breaks start-up

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <string>
 
+#include "config/base/time.hpp"
+
 namespace ivo {
 
 inline constexpr int kWheels = 4;
@@ -32,7 +34,8 @@ struct MotionLimits {
   double max_turn_radps = 1.0;
   double max_accel_mps2 = 0.5;  ///< speeding up and planned slowing down
   double max_turn_accel_radps2 = 1.5;
-  double stop_decel_mps2 = 1.0;  ///< ramp of an unplanned stop
+  double stop_decel_mps2 = 1.0;  ///< ramp of an unplanned stop, while the loop still commands
+  double quick_stop_mps2 = 2.0;  ///< at each wheel's rim: the ramp with which a drive stops by itself (6085h)
   friend bool operator==(const MotionLimits&, const MotionLimits&) = default;
 };
 
@@ -42,10 +45,19 @@ struct DriveParameters {
   double gear_ratio = 1.0;          ///< motor turns for one wheel turn
   double counts_per_turn = 4096.0;  ///< encoder counts for one motor turn (6064h)
   double velocity_per_radps =
-      651.8986469044033;           ///< units of 60FFh for 1 rad/s at the motor; counts/s here: 4096 / (2 pi)
-  std::uint32_t vendor_id = 0;     ///< expected 1018h:1, 0 accepts any
-  std::uint32_t product_code = 0;  ///< expected 1018h:2, 0 accepts any
+      651.8986469044033;  ///< units of 60FFh for 1 rad/s at the motor; counts/s here: 4096 / (2 pi)
+  double accel_per_radps2 = 651.8986469044033;  ///< units of 6083h, 6084h and 6085h for 1 rad/s2 at the motor
+  std::uint32_t vendor_id = 0;                  ///< expected 1018h:1, 0 accepts any
+  std::uint32_t product_code = 0;               ///< expected 1018h:2, 0 accepts any
+  std::string eds{};                            ///< path of the drive's EDS; empty: none is checked
   friend bool operator==(const DriveParameters&, const DriveParameters&) = default;
+};
+
+/// How commands reach the drives; feedback is one TPDO a drive in both.
+enum class PdoLayout : std::uint8_t {
+  kOwn,     ///< one RPDO a drive: {6040h, 60FFh}
+  kShared,  ///< targets of two drives in one RPDO: {60FFh, 60FFh}; controlwords {6040h} in one RPDO a drive, when they
+            ///< change and every rates::kControlwordRefresh. For 1 kHz at 1 Mbit/s.
 };
 
 /// Without a file: an IVO-class base as config/robots/ivo.toml has it.
@@ -56,6 +68,8 @@ struct Robot {
   MotionLimits limits;
   std::uint32_t bit_rate_bps = 1'000'000;
   std::uint8_t master_node_id = 127;
+  PdoLayout pdo_layout = PdoLayout::kOwn;
+  Duration cycle = std::chrono::milliseconds(2);  ///< of loop and SYNC: 2 ms, or 1 ms with kShared
   /// The right-hand wheels are mounted the other way round.
   std::array<DriveParameters, kWheels> drives = {
       {{.node_id = 1, .sign = 1}, {.node_id = 2, .sign = -1}, {.node_id = 3, .sign = 1}, {.node_id = 4, .sign = -1}}};

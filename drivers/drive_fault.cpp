@@ -13,7 +13,14 @@ bool needs_start_up(DriveFaultReason reason) noexcept {
     case DriveFaultReason::kLeftOperational:
     case DriveFaultReason::kHeartbeatLost:
     case DriveFaultReason::kFeedbackLost:
+    case DriveFaultReason::kFeedbackErratic:
+    case DriveFaultReason::kDuplicateNodeId:
     case DriveFaultReason::kCommandsNotSent:
+    case DriveFaultReason::kBusLost:
+    case DriveFaultReason::kFramesLost:
+    case DriveFaultReason::kBusFlooded:
+    case DriveFaultReason::kForeignMaster:
+    case DriveFaultReason::kCycleLate:
       return true;
     case DriveFaultReason::kNone:
     case DriveFaultReason::kEmergency:
@@ -23,6 +30,11 @@ bool needs_start_up(DriveFaultReason reason) noexcept {
     case DriveFaultReason::kStateChangeTimedOut:
     case DriveFaultReason::kNotStill:
     case DriveFaultReason::kFaultResetFailed:
+    case DriveFaultReason::kVoltageMissing:
+    case DriveFaultReason::kEncoderStuck:
+    case DriveFaultReason::kResetLimit:
+    case DriveFaultReason::kWheelSlip:
+    case DriveFaultReason::kStopInput:
       break;
   }
   return false;

@@ -27,7 +27,20 @@ enum class DriveFaultReason : std::uint8_t {
   kStateChangeTimedOut,   ///< a CiA 402 transition; code: statusword
   kNotStill,              ///< wheels still moved rates::kStandstillTimeout after a stop
   kFaultResetFailed,      ///< code: statusword
-  kCommandsNotSent,       ///< of no drive: the bus did not take kUnsentWrites writes in a row whole
+  kFeedbackErratic,       ///< TPDO1 missing or double too often; code: how many of the last 100
+  kDuplicateNodeId,       ///< two devices answer to one node-id
+  kVoltageMissing,        ///< does not leave Switch On Disabled: STO or emergency stop open; code: statusword
+  kEncoderStuck,          ///< the wheel was told to turn and its position stays
+  kResetLimit,            ///< faults come back after each reset; code: resets that were tried
+  // Of no drive.
+  kCommandsNotSent,  ///< the bus did not take kUnsentWrites writes in a row whole
+  kBusLost,          ///< code: hal::BusState
+  kFramesLost,       ///< the receive queue overflowed; code: frames
+  kBusFlooded,       ///< more frames than a healthy bus of this robot carries; code: frames in a cycle
+  kForeignMaster,    ///< somebody else sends what only a master sends; code: COB-ID
+  kCycleLate,        ///< our own cycle; code: periods skipped
+  kWheelSlip,        ///< the wheels turn as no body can move; code: residual in mm/s
+  kStopInput,        ///< emergency stop or bumper; code: number of the input
 };
 
 /// Plain data, made in the loop. No fault: reason kNone. node_id 0: of the bus, not of one drive.

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "drivers/canopen/sdo_abort.hpp"
+#include "hal/api/can_bus.hpp"
 
 namespace ivo::drivers {
 namespace {
@@ -27,6 +28,25 @@ std::string_view name_of(Wheel wheel) noexcept {
       return "rear right";
   }
   return "unknown wheel";
+}
+
+std::string_view bus_state(std::uint32_t code) noexcept {
+  switch (static_cast<hal::BusState>(code)) {
+    case hal::BusState::kPassive:
+      return "the controller is error passive";
+    case hal::BusState::kUnconfirmed:
+      return "nothing that is sent leaves: no other node, another bit rate, or no cable";
+    case hal::BusState::kOff:
+      return "bus-off";
+    case hal::BusState::kDown:
+      return "the interface is down";
+    case hal::BusState::kRemoved:
+      return "the interface was removed";
+    case hal::BusState::kActive:
+    case hal::BusState::kWarning:
+      break;
+  }
+  return "unknown state";
 }
 
 std::string reason_of(const DriveFault& fault) {
@@ -67,6 +87,32 @@ std::string reason_of(const DriveFault& fault) {
       return "fault could not be reset (statusword " + hexadecimal(fault.code, 4) + ")";
     case DriveFaultReason::kCommandsNotSent:
       return "commands do not get out: the transmit queue is full or the interface is down";
+    case DriveFaultReason::kFeedbackErratic:
+      return "feedback comes missing or double too often (" + std::to_string(fault.code) + " of 100)";
+    case DriveFaultReason::kDuplicateNodeId:
+      return "two devices answer to this node-id; expected one each";
+    case DriveFaultReason::kVoltageMissing:
+      return "does not take power: is its STO or the emergency stop open? (statusword " + hexadecimal(fault.code, 4) +
+             ")";
+    case DriveFaultReason::kEncoderStuck:
+      return "told to turn, but its position stays: encoder, coupling or a blocked wheel";
+    case DriveFaultReason::kResetLimit:
+      return "faults come back: " + std::to_string(fault.code) + " resets did not help; start anew when it is mended";
+    case DriveFaultReason::kBusLost:
+      return "bus lost: " + std::string(bus_state(fault.code));
+    case DriveFaultReason::kFramesLost:
+      return std::to_string(fault.code) + " frames were lost on the way in: the receive queue overflowed";
+    case DriveFaultReason::kBusFlooded:
+      return "bus flooded: " + std::to_string(fault.code) + " frames in one cycle";
+    case DriveFaultReason::kForeignMaster:
+      return "another master on the bus sent COB-ID " + hexadecimal(fault.code, 3) +
+             "; expected none but this controller";
+    case DriveFaultReason::kCycleLate:
+      return "own cycle late by " + std::to_string(fault.code) + " periods";
+    case DriveFaultReason::kWheelSlip:
+      return "wheels slip: " + std::to_string(fault.code) + " mm/s that no motion of the base explains";
+    case DriveFaultReason::kStopInput:
+      return fault.code == 0 ? "emergency stop pressed" : "bumper " + std::to_string(fault.code) + " touched";
   }
   return "unknown fault";
 }

@@ -76,11 +76,11 @@ void DriveGroup::write(Instant now, bool enable, const WheelTargets& targets) no
   if (unsent_writes_ == 0 && heartbeat_.due(now)) {
     add(heartbeat_frame(master_node_id_, NmtState::kOperational));
   }
-  send(frames.span());
+  send(frames.span(), now);
 }
 
-void DriveGroup::send(std::span<const hal::CanFrame> frames) noexcept {
-  const bool whole = frames.empty() || bus_.send(frames) == frames.size();
+void DriveGroup::send(std::span<const hal::CanFrame> frames, Instant now) noexcept {
+  const bool whole = frames.empty() || bus_.send(frames, now) == frames.size();
   if (whole) {
     unsent_writes_ = 0;
     return;

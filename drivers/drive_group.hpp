@@ -100,7 +100,7 @@ class DriveGroup {
   void update_resetting(Instant now) noexcept;
 
   void follow(Instant now, bool enable) noexcept;
-  void send(std::span<const hal::CanFrame> frames) noexcept;
+  void send(std::span<const hal::CanFrame> frames, Instant now) noexcept;
   void begin_stop(Instant now) noexcept;
   void enter(GroupState state, Instant now) noexcept;
   [[nodiscard]] std::uint16_t controlword_for(const WheelDrive& drive, Instant now) const noexcept;

@@ -24,7 +24,7 @@ void SimDrives::open() noexcept {
   for (SimDrive& drive : drives_) {
     drive.open(out_);
   }
-  flush();
+  flush(drives_.front().now());
 }
 
 void SimDrives::update(Instant now) noexcept {
@@ -33,15 +33,15 @@ void SimDrives::update(Instant now) noexcept {
       drive.advance_to(now, out_);
     }
   }
-  std::array<hal::CanFrame, limits::kFramesPerCycle> frames;
-  const std::size_t count = bus_.receive(frames);
-  for (const hal::CanFrame& frame : std::span(frames).first(count)) {
+  std::array<hal::ReceivedFrame, limits::kFramesPerCycle> frames;
+  const std::size_t count = bus_.receive(frames, now);
+  for (const hal::ReceivedFrame& received : std::span(frames).first(count)) {
     if (SimDrive::Outbox::capacity() - out_.size() < kFramesPerRound) {
-      flush();
+      flush(now);
     }
-    handle(frame);
+    handle(received.frame);
   }
-  flush();
+  flush(now);
 }
 
 void SimDrives::handle(const hal::CanFrame& frame) noexcept {
@@ -54,9 +54,9 @@ void SimDrives::handle(const hal::CanFrame& frame) noexcept {
   }
 }
 
-void SimDrives::flush() noexcept {
+void SimDrives::flush(Instant now) noexcept {
   if (!out_.empty()) {
-    bus_.send(out_.span());
+    bus_.send(out_.span(), now);
     out_.clear();
   }
 }

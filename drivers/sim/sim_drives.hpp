@@ -34,7 +34,7 @@ class SimDrives {
 
  private:
   void handle(const hal::CanFrame& frame) noexcept;
-  void flush() noexcept;
+  void flush(Instant now) noexcept;
 
   hal::CanBus& bus_;
   TimeFrom time_from_;

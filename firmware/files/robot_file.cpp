@@ -40,6 +40,14 @@ MotionLimits read_limits(const TomlValue& table) {
                   shortest(limits.max_accel_mps2));
   }
   const double most_s = seconds(rates::kStandstillTimeout) - 1.0;
+  const TomlValue quick = table.optional("quick_stop_mps2");
+  limits.quick_stop_mps2 = quick.number({0.05, 40.0, "metres a second squared"}, 2.0 * limits.stop_decel_mps2);
+  if (quick.present() && limits.quick_stop_mps2 < limits.stop_decel_mps2) {
+    quick.complain(shortest(limits.quick_stop_mps2) +
+                   " is gentler than the loop's own stop; expected at least "
+                   "stop_decel_mps2, " +
+                   shortest(limits.stop_decel_mps2));
+  }
   if (stop.present() && limits.max_speed_mps > limits.stop_decel_mps2 * most_s) {
     stop.complain(shortest(limits.stop_decel_mps2) + " does not stop the robot from max_speed_mps within " +
                   shortest(most_s) + " s; expected at least " + shortest(limits.max_speed_mps / most_s));
@@ -56,6 +64,16 @@ std::uint32_t read_bit_rate(const TomlValue& value) {
   return static_cast<std::uint32_t>(rate);
 }
 
+// SYNC and eight PDOs of four drives fill most of 1 ms; two shared RPDOs leave room (config/robot.hpp).
+void read_cycle(Robot& robot, const TomlValue& bus) {
+  robot.pdo_layout = static_cast<PdoLayout>(bus.optional("pdo_layout").choice({"own", "shared"}));
+  const TomlValue cycle = bus.optional("cycle_ms");
+  robot.cycle = std::chrono::milliseconds(cycle.integer(1, 2, 2));
+  if (robot.cycle < rates::kCycle && (robot.pdo_layout != PdoLayout::kShared || robot.bit_rate_bps != 1'000'000)) {
+    cycle.complain("1 does not fit on this bus; expected 2, or pdo_layout = \"shared\" and bit_rate_bps = 1000000");
+  }
+}
+
 DriveParameters read_drive(const TomlValue& table) {
   DriveParameters drive;
   drive.node_id = static_cast<std::uint8_t>(table.required("node_id").integer(1, 126));
@@ -67,6 +85,9 @@ DriveParameters read_drive(const TomlValue& table) {
   drive.gear_ratio = table.required("gear_ratio").number({0.01, 1000.0, "motor turns for one wheel turn"});
   drive.counts_per_turn = table.required("counts_per_turn").number({1.0, 1e8, "counts for one motor turn"});
   drive.velocity_per_radps = table.required("velocity_per_radps").number({1e-3, 1e9, "units of 60FFh for 1 rad/s"});
+  drive.accel_per_radps2 =
+      table.optional("accel_per_radps2").number({1e-3, 1e9, "units of 6083h for 1 rad/s2"}, drive.velocity_per_radps);
+  drive.eds = table.optional("eds").text("");
   constexpr std::int64_t kMost = std::numeric_limits<std::uint32_t>::max();
   drive.vendor_id = static_cast<std::uint32_t>(table.optional("vendor_id").integer(0, kMost));
   drive.product_code = static_cast<std::uint32_t>(table.optional("product_code").integer(0, kMost));
@@ -123,6 +144,7 @@ Result<Robot> read_robot(const std::string& path) {
   const TomlValue bus = root.required("bus");
   robot.bit_rate_bps = read_bit_rate(bus.required("bit_rate_bps"));
   robot.master_node_id = static_cast<std::uint8_t>(bus.required("master_node_id").integer(1, 127));
+  read_cycle(robot, bus);
   const TomlValue drives = root.required("drive");
   for (std::size_t i = 0; i < kWheelKeys.size(); ++i) {
     robot.drives[i] = read_drive(drives.required(kWheelKeys[i]));

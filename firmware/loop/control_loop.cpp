@@ -81,9 +81,9 @@ void ControlLoop::take_commands() noexcept {
 }
 
 void ControlLoop::drain_bus() noexcept {
-  const std::size_t received = bus_.receive(frames_);
+  const std::size_t received = bus_.receive(frames_, now_);
   for (std::size_t i = 0; i < received; ++i) {
-    drives_.on_frame(frames_[i]);
+    drives_.on_frame(frames_[i].frame);
   }
 }
 
@@ -131,7 +131,7 @@ void ControlLoop::decide_mode() noexcept {
           .drives_ready = enabled || wheels_.state == GroupState::kReady || wheels_.state == GroupState::kEnabling,
           .drives_enabled = enabled,
           .drives_standstill = wheels_.standstill && at_rest(moving_),
-          .drives_fault = wheels_.state == GroupState::kFault || bus_.state() >= hal::BusState::kOff,
+          .drives_fault = wheels_.state == GroupState::kFault || bus_.state() >= hal::BusState::kUnconfirmed,
       },
       now_);
   if (mode_ != before) {

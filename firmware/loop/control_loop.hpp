@@ -105,7 +105,7 @@ class ControlLoop {
   Instant next_position_{};
   bool finished_ = false;
   LoopCounters counters_;
-  std::array<hal::CanFrame, limits::kFramesPerCycle> frames_{};
+  std::array<hal::ReceivedFrame, limits::kFramesPerCycle> frames_{};
 
   planner::Plan plan_;
   Latest<planner::Plan> shown_plan_;

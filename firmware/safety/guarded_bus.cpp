@@ -4,13 +4,13 @@
 
 namespace ivo::firmware {
 
-std::size_t GuardedBus::receive(std::span<hal::CanFrame> frames) noexcept {
+std::size_t GuardedBus::receive(std::span<hal::ReceivedFrame> frames, Instant now) noexcept {
   // Reading the bus begins a new cycle: what the last one permitted is over.
   permit_motion(false);
-  return inner_.receive(frames);
+  return inner_.receive(frames, now);
 }
 
-std::size_t GuardedBus::send(std::span<const hal::CanFrame> frames) noexcept {
+std::size_t GuardedBus::send(std::span<const hal::CanFrame> frames, Instant now) noexcept {
   // Runs of good frames go on as they lie, so a span without a refusal is one call of the inner bus, without a copy.
   std::size_t taken = 0;
   std::size_t begin = 0;
@@ -19,12 +19,12 @@ std::size_t GuardedBus::send(std::span<const hal::CanFrame> frames) noexcept {
       continue;
     }
     if (i > begin) {
-      taken += inner_.send(frames.subspan(begin, i - begin));
+      taken += inner_.send(frames.subspan(begin, i - begin), now);
     }
     begin = i + 1;
   }
   if (begin < frames.size()) {
-    taken += inner_.send(frames.subspan(begin));
+    taken += inner_.send(frames.subspan(begin), now);
   }
   return taken;
 }

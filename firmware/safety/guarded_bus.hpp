@@ -25,10 +25,10 @@ class GuardedBus final : public hal::CanBus {
   /// without deciding, cannot go on moving the robot.
   void permit_motion(bool permitted) noexcept { permits_.fill(permitted); }
 
-  std::size_t receive(std::span<hal::CanFrame> frames) noexcept override;
+  std::size_t receive(std::span<hal::ReceivedFrame> frames, Instant now) noexcept override;
 
   /// How many of the frames the inner bus took; refused ones are not among them.
-  std::size_t send(std::span<const hal::CanFrame> frames) noexcept override;
+  std::size_t send(std::span<const hal::CanFrame> frames, Instant now) noexcept override;
 
   [[nodiscard]] hal::BusState state() const noexcept override { return inner_.state(); }
   [[nodiscard]] hal::BusCounters counters() const noexcept override { return inner_.counters(); }

@@ -5,16 +5,30 @@
 #include <cstdint>
 #include <span>
 
+#include "config/base/time.hpp"
 #include "hal/api/can_frame.hpp"
 
 namespace ivo::hal {
 
-enum class BusState : std::uint8_t { kActive, kWarning, kPassive, kOff, kDown, kRemoved };
+/// From bad to worse; from kUnconfirmed on the bus is lost: what we send reaches nobody.
+enum class BusState : std::uint8_t {
+  kActive,
+  kWarning,      ///< error counters above 96
+  kPassive,      ///< above 127
+  kUnconfirmed,  ///< nothing that was handed over has left for rates::kTransmitTimeout: alone, or wrong bit rate
+  kOff,          ///< bus-off: above 255
+  kDown,         ///< the interface is not up
+  kRemoved,      ///< it is not there
+};
+[[nodiscard]] constexpr bool lost(BusState state) noexcept { return state >= BusState::kUnconfirmed; }
 
 struct BusCounters {
   std::uint64_t received = 0;
-  std::uint64_t sent = 0;
-  std::uint64_t send_dropped = 0;     ///< the queue was full or the interface down
+  std::uint64_t sent = 0;             ///< handed over to the interface
+  std::uint64_t confirmed = 0;        ///< of those, seen to leave
+  std::uint64_t send_dropped = 0;     ///< never handed over: the queue was full or the interface down until
+                                      ///< rates::kTransmitAge had passed, or there was no place to keep them
+  std::uint64_t send_replaced = 0;    ///< never handed over: a newer frame of the same COB-ID came first
   std::uint64_t receive_dropped = 0;  ///< lost before we read it
 };
 
@@ -22,12 +36,14 @@ class CanBus {
  public:
   virtual ~CanBus() = default;
 
-  /// Copies frames received since the last call, oldest first, as many as fit; returns how many.
-  virtual std::size_t receive(std::span<CanFrame> frames) noexcept = 0;
+  /// Copies frames received since the last call, oldest first, as many as fit; returns how many. Own frames are not
+  /// among them.
+  virtual std::size_t receive(std::span<ReceivedFrame> frames, Instant now) noexcept = 0;
 
-  /// Hands frames to the interface in order; returns how many it took. The rest is dropped and counted, never kept for
-  /// later: an old velocity must not move a wheel.
-  virtual std::size_t send(std::span<const CanFrame> frames) noexcept = 0;
+  /// Hands frames to the interface in order; returns how many of them it took now. Of the rest the newest of each
+  /// COB-ID (of NMT: of each node) goes out with a later call, unless it is older than rates::kTransmitAge by then: an
+  /// old velocity must not move a wheel.
+  virtual std::size_t send(std::span<const CanFrame> frames, Instant now) noexcept = 0;
 
   [[nodiscard]] virtual BusState state() const noexcept = 0;
   [[nodiscard]] virtual BusCounters counters() const noexcept = 0;

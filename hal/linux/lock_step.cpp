@@ -8,18 +8,19 @@ namespace ivo::hal {
 
 LockStep::LockStep(SocketCanBus& bus, const Options& options) noexcept : bus_(bus), options_(options) {}
 
-std::size_t LockStep::receive(std::span<CanFrame> frames) noexcept {
+std::size_t LockStep::receive(std::span<ReceivedFrame> frames, Instant now) noexcept {
   const std::size_t count = std::min(frames.size(), queued_);
   for (std::size_t i = 0; i < count; ++i) {
     frames[i] = queue_[(first_ + i) % kQueueFrames];
+    frames[i].at = now;
   }
   first_ = (first_ + count) % kQueueFrames;
   queued_ -= count;
   return count;
 }
 
-std::size_t LockStep::send(std::span<const CanFrame> frames) noexcept {
-  const std::size_t count = bus_.send(frames);
+std::size_t LockStep::send(std::span<const CanFrame> frames, Instant /*now*/) noexcept {
+  const std::size_t count = bus_.send(frames, host_.now());
   ever_sent_ = ever_sent_ || count > 0;
   for (const CanFrame& frame : frames.first(count)) {
     if (frame.id == options_.sync_id) {
@@ -62,24 +63,24 @@ bool LockStep::complete() const noexcept {
 }
 
 bool LockStep::collect() noexcept {
-  std::array<CanFrame, limits::kFramesPerCycle> frames;
-  const std::size_t count = bus_.receive(frames);
+  std::array<ReceivedFrame, limits::kFramesPerCycle> frames;
+  const std::size_t count = bus_.receive(frames, host_.now());
   bool due = false;
-  for (const CanFrame& frame : std::span(frames).first(count)) {
+  for (const ReceivedFrame& frame : std::span(frames).first(count)) {
     due = take(frame) || due;
   }
   return due;
 }
 
-bool LockStep::take(const CanFrame& frame) noexcept {
+bool LockStep::take(const ReceivedFrame& received) noexcept {
   if (queued_ == kQueueFrames) {
     ++overflowed_;
   } else {
-    queue_[(first_ + queued_) % kQueueFrames] = frame;
+    queue_[(first_ + queued_) % kQueueFrames] = received;
     ++queued_;
   }
   ++arrived_;
-  const auto* const id = std::find(options_.answer_ids.begin(), options_.answer_ids.end(), frame.id);
+  const auto* const id = std::find(options_.answer_ids.begin(), options_.answer_ids.end(), received.frame.id);
   if (!sync_sent_ || id == options_.answer_ids.end()) {
     return !sync_sent_;
   }

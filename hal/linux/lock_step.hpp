@@ -44,8 +44,8 @@ class LockStep final : public CanBus, public Clock {
   [[nodiscard]] bool stalled() const noexcept { return stalled_; }
 
   /// Hands out what arrived during sleep_until, and nothing that arrives later.
-  std::size_t receive(std::span<CanFrame> frames) noexcept override;
-  std::size_t send(std::span<const CanFrame> frames) noexcept override;
+  std::size_t receive(std::span<ReceivedFrame> frames, Instant now) noexcept override;
+  std::size_t send(std::span<const CanFrame> frames, Instant now) noexcept override;
   [[nodiscard]] BusState state() const noexcept override { return bus_.state(); }
   [[nodiscard]] BusCounters counters() const noexcept override;
 
@@ -55,7 +55,7 @@ class LockStep final : public CanBus, public Clock {
  private:
   [[nodiscard]] bool complete() const noexcept;
   bool collect() noexcept;
-  bool take(const CanFrame& frame) noexcept;
+  bool take(const ReceivedFrame& received) noexcept;
 
   SocketCanBus& bus_;
   Options options_;
@@ -67,7 +67,7 @@ class LockStep final : public CanBus, public Clock {
   int arrived_ = 0;
   std::uint32_t sync_answers_missing_ = 0;  // a bit for each of answer_ids; 0 when no SYNC is out
   bool sync_sent_ = false;
-  std::array<CanFrame, kQueueFrames> queue_{};
+  std::array<ReceivedFrame, kQueueFrames> queue_{};
   std::size_t first_ = 0;
   std::size_t queued_ = 0;
   std::uint64_t overflowed_ = 0;

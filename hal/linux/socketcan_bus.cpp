@@ -145,7 +145,7 @@ SocketCanBus::SocketCanBus(SocketCanBus&&) noexcept = default;
 SocketCanBus& SocketCanBus::operator=(SocketCanBus&&) noexcept = default;
 SocketCanBus::~SocketCanBus() = default;
 
-std::size_t SocketCanBus::receive(std::span<CanFrame> frames) noexcept {
+std::size_t SocketCanBus::receive(std::span<ReceivedFrame> frames, Instant now) noexcept {
   const std::size_t room = std::min(frames.size(), Messages::kCount);
   messages_->ready_to_receive(room);
   const int got =
@@ -168,7 +168,8 @@ std::size_t SocketCanBus::receive(std::span<CanFrame> frames) noexcept {
     if ((raw.can_id & (CAN_EFF_FLAG | CAN_RTR_FLAG)) != 0) {
       continue;
     }
-    CanFrame& frame = frames[count++];
+    frames[count].at = now;
+    CanFrame& frame = frames[count++].frame;
     frame.id = static_cast<std::uint16_t>(raw.can_id & CAN_SFF_MASK);
     frame.size = raw.can_dlc;
     std::copy_n(raw.data, frame.data.size(), frame.data.begin());
@@ -180,7 +181,7 @@ std::size_t SocketCanBus::receive(std::span<CanFrame> frames) noexcept {
   return count;
 }
 
-std::size_t SocketCanBus::send(std::span<const CanFrame> frames) noexcept {
+std::size_t SocketCanBus::send(std::span<const CanFrame> frames, Instant /*now*/) noexcept {
   const std::span<const CanFrame> batch = frames.first(std::min(frames.size(), Messages::kCount));
   messages_->ready_to_send(batch);
   const int took = sendmmsg(socket_.get(), messages_->headers.data(), static_cast<unsigned>(batch.size()),

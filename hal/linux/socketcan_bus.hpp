@@ -26,8 +26,8 @@ class SocketCanBus final : public CanBus {
   SocketCanBus& operator=(SocketCanBus&&) noexcept;
   ~SocketCanBus() override;
 
-  std::size_t receive(std::span<CanFrame> frames) noexcept override;
-  std::size_t send(std::span<const CanFrame> frames) noexcept override;
+  std::size_t receive(std::span<ReceivedFrame> frames, Instant now) noexcept override;
+  std::size_t send(std::span<const CanFrame> frames, Instant now) noexcept override;
   [[nodiscard]] BusState state() const noexcept override { return state_; }
   [[nodiscard]] BusCounters counters() const noexcept override { return counters_; }
 

@@ -22,26 +22,26 @@ class VirtualBus {
   /// Port `index`, below kPorts; lives as long as the bus.
   [[nodiscard]] CanBus& port(std::size_t index) noexcept;
 
-  /// What port `index` reports from now on. At kOff and beyond it sends and receives nothing; its queue is purged.
+  /// What port `index` reports from now on. A port whose bus is lost sends and receives nothing; its queue is purged.
   void set_state(std::size_t index, BusState state) noexcept;
 
  private:
   class Port final : public CanBus {
    public:
-    std::size_t receive(std::span<CanFrame> frames) noexcept override;
-    std::size_t send(std::span<const CanFrame> frames) noexcept override;
+    std::size_t receive(std::span<ReceivedFrame> frames, Instant now) noexcept override;
+    std::size_t send(std::span<const CanFrame> frames, Instant now) noexcept override;
     [[nodiscard]] BusState state() const noexcept override { return state_; }
     [[nodiscard]] BusCounters counters() const noexcept override { return counters_; }
 
    private:
     friend class VirtualBus;
-    [[nodiscard]] bool connected() const noexcept { return state_ < BusState::kOff; }
-    void put(const CanFrame& frame) noexcept;
+    [[nodiscard]] bool connected() const noexcept { return !lost(state_); }
+    void put(const CanFrame& frame, Instant now) noexcept;
 
     VirtualBus* bus_ = nullptr;
     BusState state_ = BusState::kActive;
     BusCounters counters_;
-    std::array<CanFrame, kQueueFrames> queue_{};
+    std::array<ReceivedFrame, kQueueFrames> queue_{};
     std::size_t first_ = 0;
     std::size_t queued_ = 0;
   };

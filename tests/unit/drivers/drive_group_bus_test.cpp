@@ -88,8 +88,8 @@ TEST(DriveGroupBus, ALostHeartbeatBeforeStartUpIsNotTheLast) {
     group.write(Instant(n * rates::kCycle), false, {});
     narrow.room = 1000;
   }
-  std::array<hal::CanFrame, 8> frames;
-  EXPECT_GE(bus.port(1).receive(frames), 3U);
+  std::array<hal::ReceivedFrame, 8> frames;
+  EXPECT_GE(bus.port(1).receive(frames, Instant{}), 3U);
 }
 
 }  // namespace

@@ -57,11 +57,11 @@ TEST(DriveGroup, SendsItsHeartbeatAfterTheCommands) {
 TEST(DriveGroup, ProducesItsHeartbeatEvenBeforeOpen) {
   hal::VirtualBus bus;
   DriveGroup group(bus.port(0), test_robot());
-  std::array<hal::CanFrame, 8> frames;
+  std::array<hal::ReceivedFrame, 8> frames;
   group.update(Instant{});
   group.write(Instant{}, false, {});
-  ASSERT_EQ(bus.port(1).receive(frames), 1U);
-  EXPECT_EQ(frames[0], (hal::CanFrame{.id = 0x77F, .size = 1, .data = {0x05}}));
+  ASSERT_EQ(bus.port(1).receive(frames, Instant{}), 1U);
+  EXPECT_EQ(frames[0].frame, (hal::CanFrame{.id = 0x77F, .size = 1, .data = {0x05}}));
 }
 
 TEST(DriveGroup, EnablesInLockstepOneTransitionForEachConfirmedStatusOfAll) {

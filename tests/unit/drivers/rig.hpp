@@ -32,9 +32,11 @@ inline Robot test_robot() {
 class NarrowBus final : public hal::CanBus {
  public:
   explicit NarrowBus(hal::CanBus& inner) : inner_(inner) {}
-  std::size_t receive(std::span<hal::CanFrame> frames) noexcept override { return inner_.receive(frames); }
-  std::size_t send(std::span<const hal::CanFrame> frames) noexcept override {
-    return inner_.send(frames.first(std::min(frames.size(), room)));
+  std::size_t receive(std::span<hal::ReceivedFrame> frames, Instant now) noexcept override {
+    return inner_.receive(frames, now);
+  }
+  std::size_t send(std::span<const hal::CanFrame> frames, Instant now) noexcept override {
+    return inner_.send(frames.first(std::min(frames.size(), room)), now);
   }
   [[nodiscard]] hal::BusState state() const noexcept override { return inner_.state(); }
   [[nodiscard]] hal::BusCounters counters() const noexcept override { return inner_.counters(); }
@@ -56,10 +58,10 @@ class Rig {
 
   /// One cycle of the loop: receive, update, write; the drives answer; 2 ms pass.
   const GroupFeedback& cycle() {
-    std::array<hal::CanFrame, 64> frames;
-    const std::size_t count = bus.port(0).receive(frames);
+    std::array<hal::ReceivedFrame, 64> frames;
+    const std::size_t count = bus.port(0).receive(frames, Instant{});
     for (std::size_t i = 0; i < count; ++i) {
-      group.on_frame(frames[i]);
+      group.on_frame(frames[i].frame);
     }
     const GroupFeedback& seen = group.update(clock.now());
     group.write(clock.now(), enable, targets);
@@ -106,7 +108,7 @@ class Rig {
   }
 
   /// A frame from a stranger on the bus.
-  void inject(const hal::CanFrame& frame) { bus.port(2).send({&frame, 1}); }
+  void inject(const hal::CanFrame& frame) { bus.port(2).send({&frame, 1}, Instant{}); }
 
   /// The last RPDO1 that went to `node_id`.
   [[nodiscard]] hal::CanFrame last_command(std::uint8_t node_id) const {
@@ -132,9 +134,11 @@ class Rig {
 
  private:
   void listen() {
-    std::array<hal::CanFrame, 64> frames;
-    const std::size_t count = bus.port(3).receive(frames);
-    log.insert(log.end(), frames.begin(), frames.begin() + static_cast<std::ptrdiff_t>(count));
+    std::array<hal::ReceivedFrame, 64> frames;
+    const std::size_t count = bus.port(3).receive(frames, Instant{});
+    for (std::size_t i = 0; i < count; ++i) {
+      log.push_back(frames[i].frame);
+    }
   }
 };
 

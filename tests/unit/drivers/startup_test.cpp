@@ -191,9 +191,9 @@ TEST(StartUp, RefusesAnotherVendorOrProduct) {
   group.open(clock.now());
   GroupFeedback feedback;
   for (int i = 0; i < 100 && feedback.state == GroupState::kBooting; ++i) {
-    std::array<hal::CanFrame, 64> frames;
-    const std::size_t count = bus.port(0).receive(frames);
-    std::for_each_n(frames.begin(), count, [&](const hal::CanFrame& frame) { group.on_frame(frame); });
+    std::array<hal::ReceivedFrame, 64> frames;
+    const std::size_t count = bus.port(0).receive(frames, Instant{});
+    std::for_each_n(frames.begin(), count, [&](const hal::ReceivedFrame& r) { group.on_frame(r.frame); });
     feedback = group.update(clock.now());
     group.write(clock.now(), false, {});
     clock.sleep_until(clock.now() + rates::kCycle);

@@ -79,16 +79,18 @@ std::vector<CanFrame> numbered(std::size_t count) {
 
 std::vector<CanFrame> all_of(CanBus& bus) {
   std::vector<CanFrame> all;
-  std::array<CanFrame, 50> some;
-  while (const std::size_t count = bus.receive(some)) {
-    all.insert(all.end(), some.begin(), some.begin() + static_cast<std::ptrdiff_t>(count));
+  std::array<ReceivedFrame, 50> some;
+  while (const std::size_t count = bus.receive(some, Instant{})) {
+    for (std::size_t i = 0; i < count; ++i) {
+      all.push_back(some[i].frame);
+    }
   }
   return all;
 }
 
 TYPED_TEST(CanBusContract, DeliversFramesWholeAndInOrder) {
   const std::vector<CanFrame> frames = numbered(100);
-  EXPECT_EQ(this->a().send(frames), frames.size());
+  EXPECT_EQ(this->a().send(frames, Instant{}), frames.size());
   EXPECT_EQ(all_of(this->b()), frames);
 }
 
@@ -96,7 +98,7 @@ TYPED_TEST(CanBusContract, CarriesEveryIdentifierAndEverySize) {
   const std::vector<CanFrame> frames = numbered(0x800);
   std::vector<CanFrame> arrived;
   for (std::size_t i = 0; i < frames.size(); i += 64) {
-    EXPECT_EQ(this->a().send(std::span(frames).subspan(i, 64)), 64U);
+    EXPECT_EQ(this->a().send(std::span(frames).subspan(i, 64), Instant{}), 64U);
     const std::vector<CanFrame> some = all_of(this->b());
     arrived.insert(arrived.end(), some.begin(), some.end());
   }
@@ -104,23 +106,23 @@ TYPED_TEST(CanBusContract, CarriesEveryIdentifierAndEverySize) {
 }
 
 TYPED_TEST(CanBusContract, DoesNotHearItself) {
-  this->a().send(numbered(3));
+  this->a().send(numbered(3), Instant{});
   EXPECT_TRUE(all_of(this->a()).empty());
 }
 
 TYPED_TEST(CanBusContract, HandsOutWhatFitsAndKeepsTheRest) {
   const std::vector<CanFrame> frames = numbered(5);
-  this->a().send(frames);
-  std::array<CanFrame, 3> room;
-  ASSERT_EQ(this->b().receive(room), 3U);
-  EXPECT_EQ(room[2], frames[2]);
-  ASSERT_EQ(this->b().receive(room), 2U);
-  EXPECT_EQ(room[1], frames[4]);
-  EXPECT_EQ(this->b().receive(room), 0U);
+  this->a().send(frames, Instant{});
+  std::array<ReceivedFrame, 3> room;
+  ASSERT_EQ(this->b().receive(room, Instant{}), 3U);
+  EXPECT_EQ(room[2].frame, frames[2]);
+  ASSERT_EQ(this->b().receive(room, Instant{}), 2U);
+  EXPECT_EQ(room[1].frame, frames[4]);
+  EXPECT_EQ(this->b().receive(room, Instant{}), 0U);
 }
 
 TYPED_TEST(CanBusContract, CountsWhatItSentAndReceived) {
-  this->a().send(numbered(5));
+  this->a().send(numbered(5), Instant{});
   all_of(this->b());
   EXPECT_EQ(this->a().counters().sent, 5U);
   EXPECT_EQ(this->a().counters().received, 0U);
@@ -129,9 +131,9 @@ TYPED_TEST(CanBusContract, CountsWhatItSentAndReceived) {
 }
 
 TYPED_TEST(CanBusContract, AcceptsEmptySpans) {
-  EXPECT_EQ(this->a().send({}), 0U);
-  this->b().send(numbered(1));
-  EXPECT_EQ(this->a().receive({}), 0U);
+  EXPECT_EQ(this->a().send({}, Instant{}), 0U);
+  this->b().send(numbered(1), Instant{});
+  EXPECT_EQ(this->a().receive({}, Instant{}), 0U);
   EXPECT_EQ(all_of(this->a()).size(), 1U);
 }
 
@@ -144,7 +146,7 @@ TYPED_TEST(CanBusContract, IsActiveFromTheStart) {
 TYPED_TEST(CanBusContract, UnderAFloodKeepsTheOldestAndCountsTheRest) {
   const std::vector<CanFrame> frames = numbered(4000);
   for (std::size_t i = 0; i < frames.size(); i += 100) {
-    this->a().send(std::span(frames).subspan(i, 100));
+    this->a().send(std::span(frames).subspan(i, 100), Instant{});
   }
   EXPECT_EQ(this->a().counters().sent + this->a().counters().send_dropped, frames.size());
   std::vector<CanFrame> arrived = all_of(this->b());
@@ -153,7 +155,7 @@ TYPED_TEST(CanBusContract, UnderAFloodKeepsTheOldestAndCountsTheRest) {
   EXPECT_TRUE(std::equal(arrived.begin(), arrived.begin() + 16, frames.begin()));
 
   // A socket tells its losses with the next frame that gets through.
-  this->a().send(numbered(1));
+  this->a().send(numbered(1), Instant{});
   all_of(this->b());
   EXPECT_EQ(this->b().counters().received + this->b().counters().receive_dropped, this->a().counters().sent);
 }

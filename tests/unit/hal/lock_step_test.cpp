@@ -29,15 +29,15 @@ class LockStepWithPeer : public testing::Test {
   void answer(std::initializer_list<std::uint16_t> ids) {
     for (const std::uint16_t id : ids) {
       const CanFrame frame = frame_of(id);
-      ASSERT_EQ(peer_.send({&frame, 1}), 1U);
+      ASSERT_EQ(peer_.send({&frame, 1}, Instant{}), 1U);
     }
   }
   std::vector<std::uint16_t> received(LockStep& step) {
-    std::array<CanFrame, 64> frames;
-    const std::size_t count = step.receive(frames);
+    std::array<ReceivedFrame, 64> frames;
+    const std::size_t count = step.receive(frames, Instant{});
     std::vector<std::uint16_t> ids;
     for (std::size_t i = 0; i < count; ++i) {
-      ids.push_back(frames[i].id);
+      ids.push_back(frames[i].frame.id);
     }
     return ids;
   }
@@ -66,13 +66,13 @@ TEST_F(LockStepTest, DoesNotWaitBeforeAnythingWasSent) {
 
 TEST_F(LockStepTest, DoesNotWaitWhenNothingIsExpected) {
   const CanFrame heartbeat = frame_of(0x77F);
-  step_.send({&heartbeat, 1});
+  step_.send({&heartbeat, 1}, Instant{});
   step_.sleep_until(next_);
   EXPECT_EQ(step_.now(), next_);
 }
 
 TEST_F(LockStepTest, AfterSyncWaitsForEveryFeedbackWhateverElseArrives) {
-  step_.send({&kSync, 1});
+  step_.send({&kSync, 1}, Instant{});
   answer({0x181, 0x182});
   std::thread drives([this] { answer({0x701, 0x581, 0x184, 0x182, 0x183}); });
   step_.sleep_until(next_);
@@ -82,7 +82,7 @@ TEST_F(LockStepTest, AfterSyncWaitsForEveryFeedbackWhateverElseArrives) {
 }
 
 TEST_F(LockStepTest, AfterSyncOneFeedbackMissingStallsAndIsNotMadeUpForByAnother) {
-  impatient_.send({&kSync, 1});
+  impatient_.send({&kSync, 1}, Instant{});
   answer({0x181, 0x182, 0x183, 0x183, 0x183});
   impatient_.sleep_until(next_);
   EXPECT_TRUE(impatient_.stalled());
@@ -90,7 +90,7 @@ TEST_F(LockStepTest, AfterSyncOneFeedbackMissingStallsAndIsNotMadeUpForByAnother
 
 TEST_F(LockStepTest, OutsideOfSyncWaitsForAsManyAnswersAsAreExpected) {
   const CanFrame request = frame_of(0x601);
-  step_.send({&request, 1});
+  step_.send({&request, 1}, Instant{});
   step_.expect_answers(2);
   answer({0x581});
   std::thread drives([this] { answer({0x582}); });
@@ -100,7 +100,7 @@ TEST_F(LockStepTest, OutsideOfSyncWaitsForAsManyAnswersAsAreExpected) {
 }
 
 TEST_F(LockStepTest, HoldsBackWhatArrivesAfterTheSleep) {
-  step_.send({&kSync, 1});
+  step_.send({&kSync, 1}, Instant{});
   answer({0x181, 0x182, 0x183, 0x184});
   step_.sleep_until(next_);
   answer({0x701});
@@ -111,20 +111,20 @@ TEST_F(LockStepTest, HoldsBackWhatArrivesAfterTheSleep) {
 }
 
 TEST_F(LockStepTest, StallsWhenDrivesStaySilentAndNeverWaitsAgain) {
-  impatient_.send({&kSync, 1});
+  impatient_.send({&kSync, 1}, Instant{});
   impatient_.sleep_until(next_);
   EXPECT_TRUE(impatient_.stalled());
   EXPECT_EQ(impatient_.now(), next_);
-  impatient_.send({&kSync, 1});
+  impatient_.send({&kSync, 1}, Instant{});
   impatient_.sleep_until(next_ + milliseconds(2));
   EXPECT_EQ(impatient_.now(), next_ + milliseconds(2));
 }
 
 TEST_F(LockStepTest, ASyncThatTheInterfaceRefusedIsNotWaitedFor) {
-  while (bus_.send({&kSync, 1}) == 1) {
+  while (bus_.send({&kSync, 1}, Instant{}) == 1) {
   }
   const std::array<CanFrame, 2> frames{kSync, kSync};
-  EXPECT_EQ(step_.send(frames), 0U);
+  EXPECT_EQ(step_.send(frames, Instant{}), 0U);
   step_.sleep_until(next_);
   EXPECT_FALSE(step_.stalled());
 }
@@ -133,7 +133,7 @@ TEST_F(LockStepTest, CountsFramesThatItsQueueCannotHold) {
   const CanFrame noise = frame_of(0x7FF);
   const std::vector<CanFrame> burst(64, noise);
   for (std::size_t sent = 0; sent < LockStep::kQueueFrames + 64; sent += burst.size()) {
-    ASSERT_EQ(peer_.send(burst), burst.size());
+    ASSERT_EQ(peer_.send(burst, Instant{}), burst.size());
     step_.sleep_until(next_);
   }
   EXPECT_EQ(step_.counters().receive_dropped, 64U);

@@ -34,8 +34,8 @@ class Wire : public testing::Test {
   }
   void put(const can_frame& frame) { put(&frame, sizeof frame); }
   std::size_t received() {
-    std::array<CanFrame, 8> frames;
-    return bus_.receive(frames);
+    std::array<ReceivedFrame, 8> frames;
+    return bus_.receive(frames, Instant{});
   }
 
   std::array<int, 2> fds_ = [] {
@@ -116,7 +116,7 @@ TEST_F(SocketCanBusOnAWire, TellsTheStateThatErrorFramesTell) {
 TEST_F(SocketCanBusOnAWire, DropsAndCountsWhenNobodyTakes) {
   const CanFrame frame{.id = 0x201, .size = 6, .data = {}};
   std::uint64_t tries = 0;
-  while (bus_.send({&frame, 1}) == 1) {
+  while (bus_.send({&frame, 1}, Instant{}) == 1) {
     ++tries;
   }
   EXPECT_EQ(bus_.counters().sent, tries);
@@ -132,8 +132,8 @@ TEST_F(SocketCanBusOnAWire, WaitsOnlyUntilThereIsSomething) {
 TEST_F(SocketCanBusOnAWire, WorksOnWhenMoved) {
   SocketCanBus moved = std::move(bus_);
   put(can_frame{});
-  std::array<CanFrame, 8> frames;
-  EXPECT_EQ(moved.receive(frames), 1U);
+  std::array<ReceivedFrame, 8> frames;
+  EXPECT_EQ(moved.receive(frames, Instant{}), 1U);
 }
 
 /// A raw socket on vcan0 that sends what it likes, beside the bus under test.
@@ -157,7 +157,7 @@ class SocketCanBusOnVcan : public testing::Test {
 
   Result<SocketCanBus> bus_ = SocketCanBus::open("vcan0");
   FileDescriptor stranger_{socket(AF_CAN, SOCK_RAW, CAN_RAW)};
-  std::array<CanFrame, 8> frames_;
+  std::array<ReceivedFrame, 8> frames_;
 };
 
 TEST_F(SocketCanBusOnVcan, HearsPlainDataFramesOnly) {
@@ -165,16 +165,16 @@ TEST_F(SocketCanBusOnVcan, HearsPlainDataFramesOnly) {
   put(0x181 | CAN_RTR_FLAG);
   EXPECT_FALSE(bus_.value().wait_readable(Duration::zero())) << "the kernel's filter keeps them out";
   put(0x181);
-  EXPECT_EQ(bus_.value().receive(frames_), 1U);
-  EXPECT_EQ(frames_[0].id, 0x181);
+  EXPECT_EQ(bus_.value().receive(frames_, Instant{}), 1U);
+  EXPECT_EQ(frames_[0].frame.id, 0x181);
 }
 
 TEST_F(SocketCanBusOnVcan, LearnsOfBusOffAndRestartFromErrorFrames) {
   put(CAN_ERR_FLAG | CAN_ERR_BUSOFF);
-  EXPECT_EQ(bus_.value().receive(frames_), 0U);
+  EXPECT_EQ(bus_.value().receive(frames_, Instant{}), 0U);
   EXPECT_EQ(bus_.value().state(), BusState::kOff);
   put(CAN_ERR_FLAG | CAN_ERR_RESTARTED);
-  EXPECT_EQ(bus_.value().receive(frames_), 0U);
+  EXPECT_EQ(bus_.value().receive(frames_, Instant{}), 0U);
   EXPECT_EQ(bus_.value().state(), BusState::kActive);
 }
 

@@ -118,7 +118,7 @@ TEST(RobotFile, RefusesUnknownGeometryUnknownKeysAndOtherUnits) {
             "r.toml:4: base.wheel_radius_mm: unknown; this quantity is given as wheel_radius_m, in metres");
   EXPECT_EQ(complaint("sign = 1", "sign = 1\ntorque = 3"),
             "r.toml:20: drive.front_left.torque: unknown; expected one of node_id, sign, gear_ratio, counts_per_turn, "
-            "velocity_per_radps, vendor_id, product_code");
+            "velocity_per_radps, accel_per_radps2, eds, vendor_id, product_code");
 }
 
 // Every number of the file, made far too large: no field is read without a range.

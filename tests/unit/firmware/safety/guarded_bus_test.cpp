@@ -18,11 +18,11 @@ using Frames = std::vector<CanFrame>;
 /// Keeps what reaches it; takes `room` frames in all.
 class KeepingBus final : public hal::CanBus {
  public:
-  std::size_t receive(std::span<CanFrame> frames) noexcept override {
-    frames[0] = {.id = 0x181, .size = 1, .data = {7}};
+  std::size_t receive(std::span<hal::ReceivedFrame> frames, Instant /*now*/) noexcept override {
+    frames[0].frame = {.id = 0x181, .size = 1, .data = {7}};
     return 1;
   }
-  std::size_t send(std::span<const CanFrame> frames) noexcept override {
+  std::size_t send(std::span<const CanFrame> frames, Instant /*now*/) noexcept override {
     ++calls;
     const std::size_t taken = std::min(frames.size(), room - sent.size());
     sent.insert(sent.end(), frames.begin(), frames.begin() + static_cast<std::ptrdiff_t>(taken));
@@ -79,7 +79,7 @@ class GuardedBusTest : public testing::Test {
     for (int i = 0; i < kFrameRefusals; ++i) {
       counts[static_cast<std::size_t>(i)] = bus_.refused(static_cast<FrameRefusal>(i));
     }
-    const std::size_t taken = bus_.send({&frame, 1});
+    const std::size_t taken = bus_.send({&frame, 1}, Instant{});
     EXPECT_EQ(inner_.sent.size() - before, taken);
     if (taken == 1) {
       EXPECT_EQ(inner_.sent.back(), frame);
@@ -112,7 +112,7 @@ TEST_F(GuardedBusTest, LetsExactlyTheListedIdsAndSizesPassOfAllThereAre) {
         const bool listed = (id == 0 && size == 2) || (id == 0x80 && size == 0) || (id == 0x77F && size == 1) ||
                             ((id & ~0x7F) == 0x600 && of_drive && size == 8) ||
                             ((id & ~0x7F) == 0x200 && of_drive && size == 6);
-        ASSERT_EQ(bus_.send({&frame, 1}), listed ? 1U : 0U) << "id " << id << ", size " << size;
+        ASSERT_EQ(bus_.send({&frame, 1}, Instant{}), listed ? 1U : 0U) << "id " << id << ", size " << size;
         passed += listed ? 1 : 0;
       }
     }
@@ -186,8 +186,8 @@ TEST_F(GuardedBusTest, LetsEachPermitMoveEachWheelOnce) {
 
 TEST_F(GuardedBusTest, EndsAnUnusedPermitWhenTheBusIsReadAgain) {
   bus_.permit_motion(true);
-  CanFrame frame;
-  EXPECT_EQ(bus_.receive({&frame, 1}), 1U);
+  hal::ReceivedFrame frame;
+  EXPECT_EQ(bus_.receive({&frame, 1}, Instant{}), 1U);
   EXPECT_EQ(refusal_of(command(1, 0x0F, 0)), FrameRefusal::kMotionNotPermitted);
 }
 
@@ -274,7 +274,7 @@ TEST_F(GuardedBusTest, LetsOtherSdoWorkPass) {
 TEST_F(GuardedBusTest, SendsTheGoodFramesOfASpanInOrderAndNoOthers) {
   const Frames frames{{.id = 0x80},  command(1, 0x0F, 5), nmt(0x01, 0),
                       {.id = 0x7FF}, {.id = 0x100},       command(2, 0x06, 0)};
-  EXPECT_EQ(bus_.send(frames), 3U);
+  EXPECT_EQ(bus_.send(frames, Instant{}), 3U);
   EXPECT_EQ(inner_.sent, (Frames{frames[0], frames[2], frames[5]}));
   EXPECT_EQ(bus_.refused(), 3U);
   EXPECT_EQ(bus_.refused(FrameRefusal::kMotionNotPermitted), 1U);
@@ -286,23 +286,23 @@ TEST_F(GuardedBusTest, SendsASpanWithoutRefusalsAtOnce) {
   bus_.permit_motion(true);
   const Frames frames{
       {.id = 0x80}, command(1, 0x0F, 5), command(2, 0x0F, -5), command(5, 0x0F, 5), command(9, 0x0F, -5)};
-  EXPECT_EQ(bus_.send(frames), 5U);
+  EXPECT_EQ(bus_.send(frames, Instant{}), 5U);
   EXPECT_EQ(inner_.calls, 1);
   EXPECT_FALSE(bus_.last_refused_id().has_value());
-  EXPECT_EQ(bus_.send({}), 0U);
+  EXPECT_EQ(bus_.send({}, Instant{}), 0U);
 }
 
 TEST_F(GuardedBusTest, ReportsWhatTheInnerBusTook) {
   inner_.room = 1;
   const Frames frames{{.id = 0x80}, {.id = 0x7FF}, command(2, 0x06, 0)};
-  EXPECT_EQ(bus_.send(frames), 1U);
+  EXPECT_EQ(bus_.send(frames, Instant{}), 1U);
   EXPECT_EQ(inner_.sent.size(), 1U);
 }
 
 TEST_F(GuardedBusTest, ReceivesAndReportsLikeTheInnerBus) {
-  std::array<CanFrame, 2> frames{};
-  EXPECT_EQ(bus_.receive(frames), 1U);
-  EXPECT_EQ(frames[0].id, 0x181);
+  std::array<hal::ReceivedFrame, 2> frames{};
+  EXPECT_EQ(bus_.receive(frames, Instant{}), 1U);
+  EXPECT_EQ(frames[0].frame.id, 0x181);
   EXPECT_EQ(bus_.state(), hal::BusState::kPassive);
   EXPECT_EQ(bus_.counters().send_dropped, 3U);
 }
