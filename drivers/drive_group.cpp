@@ -25,12 +25,14 @@ DriveGroup::DriveGroup(hal::CanBus& bus, const Robot& robot) noexcept
     : bus_(bus),
       drives_{WheelDrive(robot, Wheel::kFrontLeft), WheelDrive(robot, Wheel::kFrontRight),
               WheelDrive(robot, Wheel::kRearLeft), WheelDrive(robot, Wheel::kRearRight)},
+      watch_(robot),
       master_node_id_(robot.master_node_id) {}
 
 void DriveGroup::open(Instant now) noexcept {
   for (WheelDrive& drive : drives_) {
     drive.open();
   }
+  watch_.open(bus_);
   enter(GroupState::kBooting, now);
   synchronous_ = false;
   enable_was_false_ = false;
@@ -43,10 +45,11 @@ void DriveGroup::open(Instant now) noexcept {
   feedback_.fault = {};
 }
 
-void DriveGroup::on_frame(const hal::CanFrame& frame) noexcept {
+void DriveGroup::on_frame(const hal::ReceivedFrame& received) noexcept {
+  watch_.on_frame(received.frame);
   for (WheelDrive& drive : drives_) {
-    if (drive.node_id() == cob_id::node_of(frame.id)) {
-      drive.on_frame(frame);
+    if (drive.node_id() == cob_id::node_of(received.frame.id)) {
+      drive.on_frame(received);
       return;
     }
   }
@@ -61,6 +64,13 @@ void DriveGroup::write(Instant now, bool enable, const WheelTargets& targets) no
     }
   }
   follow(now, enable);
+  if (state_ == GroupState::kFault && synchronous_ && needs_start_up(feedback_.fault.reason) && last_word_.due(now)) {
+    for (const WheelDrive& drive : drives_) {
+      if (!drive.answers(now)) {
+        add(nmt_frame({NmtCommand::kEnterPreOperational, drive.node_id()}));
+      }
+    }
+  }
   if (synchronous_) {
     add(sync_frame());
     syncs_since_off_ = told_off_ ? std::min(syncs_since_off_ + 1, kSyncsToAct) : 0;
@@ -102,6 +112,19 @@ void DriveGroup::stop(Instant now) noexcept {
 }
 
 void DriveGroup::reset_fault() noexcept { reset_asked_ = state_ == GroupState::kFault; }
+
+void DriveGroup::fail(const DriveFault& fault, Instant now) noexcept {
+  if (state_ == GroupState::kFault && !resetting_) {
+    return;
+  }
+  DriveFault named = fault;
+  if (fault.reason == DriveFaultReason::kEncoderStuck) {
+    named.node_id = drives_[static_cast<std::size_t>(fault.wheel)].node_id();
+  }
+  enter_fault(named, now);
+  feedback_.state = state_;
+  feedback_.off = may_end(now);
+}
 
 int DriveGroup::answers_awaited() const noexcept {
   return static_cast<int>(

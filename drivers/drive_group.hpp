@@ -10,6 +10,7 @@
 #include "config/base/static_vector.hpp"
 #include "config/base/time.hpp"
 #include "config/robot.hpp"
+#include "drivers/bus_watch.hpp"
 #include "drivers/canopen/heartbeat.hpp"
 #include "drivers/drive_fault.hpp"
 #include "drivers/wheel_drive.hpp"
@@ -49,10 +50,12 @@ struct GroupFeedback {
 /// Each cycle, in this order: on_frame for every frame received, update, write. Nothing waits, allocates or throws.
 ///
 /// Motion is earned: enable must have been false once since open(), stop() or a fault before true counts, and targets
-/// other than zero go out only while all four are Operation Enabled. Any drive's fault, emergency, reboot, silence or
-/// unasked change of state latches kFault for all four in the same update, and write then carries the stop. So do
-/// kUnsentWrites writes in a row that the bus did not take whole. Being powered in kReady is forgiven for
-/// rates::kUnaskedPowerTimeout.
+/// other than zero go out only while all four are Operation Enabled. Any drive's fault, emergency, reboot, silence,
+/// erratic feedback, twin or unasked change of state latches kFault for all four in the same update, and write then
+/// carries the stop. So do a lost or flooded bus, lost frames, another master, and kUnsentWrites writes in a row that
+/// the bus did not take whole. Being powered in kReady is forgiven for rates::kUnaskedPowerTimeout. A drive whose TPDO1
+/// does not come may have lost SYNC, and then no RPDO acts on it: in kFault it is told to leave NMT state Operational
+/// too, which makes it stop by 6007h.
 class DriveGroup {
  public:
   /// `bus` outlives this. Silent until open(), save for the heartbeat that write() sends.
@@ -60,8 +63,8 @@ class DriveGroup {
 
   /// Begins start-up of all four at once. From kBooting it goes to kReady, or to kFault with the step that failed.
   void open(Instant now) noexcept;
-  /// Takes what concerns a drive, leaves the rest.
-  void on_frame(const hal::CanFrame& frame) noexcept;
+  /// Takes what concerns a drive or comes from another master, leaves the rest.
+  void on_frame(const hal::ReceivedFrame& received) noexcept;
   /// Valid until the next call.
   const GroupFeedback& update(Instant now) noexcept;
   /// Sends at most kFramesPerWrite frames in one CanBus::send: start-up, SYNC, four RPDO1, which the drives act on at
@@ -75,7 +78,11 @@ class DriveGroup {
   void stop(Instant now) noexcept;
   /// In kFault: with the next update, resets the drives in fault, or starts all four up again where a drive must be
   /// told everything anew. Ends in kReady, or in kFault.
+  /// After rates::kResetLimit resets within rates::kResetWindow it stays there, and says so.
   void reset_fault() noexcept;
+  /// A fault that somebody else found, as an emergency stop: latched as one of the group's own, so that the next write
+  /// carries the stop. One of a wheel is given its node-id here. In kFault without effect: the first one stays.
+  void fail(const DriveFault& fault, Instant now) noexcept;
 
   /// Answers that are on their way (boot-up, SDO, Operational), those to SYNC not counted: for lock-step time.
   [[nodiscard]] int answers_awaited() const noexcept;
@@ -91,6 +98,9 @@ class DriveGroup {
   template <class Condition>
   void latch_first(DriveFaultReason reason, const Condition& at_fault) noexcept;
   void find_fault(Instant now) noexcept;
+  [[nodiscard]] DriveFault first_fault() const noexcept;
+  void enter_fault(const DriveFault& fault, Instant now) noexcept;
+  [[nodiscard]] bool may_reset(Instant now) noexcept;
 
   void watch_unasked_power(Instant now) noexcept;
   void update_booting(Instant now) noexcept;
@@ -111,7 +121,9 @@ class DriveGroup {
 
   hal::CanBus& bus_;
   std::array<WheelDrive, kWheels> drives_;
+  BusWatch watch_;
   HeartbeatProducer heartbeat_{rates::kMasterHeartbeat};
+  HeartbeatProducer last_word_{rates::kMasterHeartbeat};  // NMT to drives that do not answer, in kFault
   std::uint8_t master_node_id_;
   GroupFeedback feedback_;
   GroupState state_ = GroupState::kBooting;
@@ -127,6 +139,8 @@ class DriveGroup {
   int unsent_writes_ = 0;                 // in a row, not taken whole by the bus
   std::optional<Instant> powered_since_;  // in kReady, unasked
   bool reset_asked_ = false;
+  std::array<std::optional<Instant>, rates::kResetLimit> resets_;  // the last ones, a ring
+  std::size_t next_reset_ = 0;
   bool resetting_ = false;  // in kFault: the drives' fault reset is under way
 };
 

@@ -22,6 +22,7 @@ const GroupFeedback& DriveGroup::update(Instant now) noexcept {
   for (WheelDrive& drive : drives_) {
     drive.update(now);
   }
+  watch_.update(bus_, synchronous_);
   collect();
   if (!resetting_) {
     latch_first(DriveFaultReason::kDriveInFault, &WheelDrive::in_fault);
@@ -77,17 +78,29 @@ void DriveGroup::find_fault(Instant now) noexcept {
   if (state_ == GroupState::kFault && !resetting_) {
     return;
   }
+  if (const DriveFault fault = first_fault(); fault.reason != DriveFaultReason::kNone) {
+    enter_fault(fault, now);
+  }
+}
+
+DriveFault DriveGroup::first_fault() const noexcept {
+  if (watch_.fault().reason != DriveFaultReason::kNone) {
+    return watch_.fault();
+  }
+  if (unsent_writes_ == kUnsentWrites) {
+    return {.reason = DriveFaultReason::kCommandsNotSent};
+  }
   const auto faulty = std::find_if(drives_.begin(), drives_.end(), [](const WheelDrive& drive) {
     return drive.fault().reason != DriveFaultReason::kNone;
   });
-  const bool unsent = unsent_writes_ == kUnsentWrites;
-  if (faulty == drives_.end() && !unsent) {
-    return;
-  }
+  return faulty == drives_.end() ? DriveFault{} : faulty->fault();
+}
+
+void DriveGroup::enter_fault(const DriveFault& fault, Instant now) noexcept {
   if (state_ != GroupState::kFault && state_ != GroupState::kStopping) {
     quick_stop_since_ = now;
   }
-  feedback_.fault = unsent ? DriveFault{.reason = DriveFaultReason::kCommandsNotSent} : faulty->fault();
+  feedback_.fault = fault;
   enter(GroupState::kFault, now);
   enable_was_false_ = false;
   reset_asked_ = false;
@@ -134,6 +147,9 @@ void DriveGroup::update_enabling(Instant now) noexcept {
     return first ? drive.powered() : state != step_ && state != step_before(step_);
   });
   if (now - since_ > rates::kStateChangeTimeout) {
+    latch_first(DriveFaultReason::kVoltageMissing, [this, elsewhere](const WheelDrive& drive) {
+      return elsewhere(drive) && drive.power_state() == PowerState::kSwitchOnDisabled;
+    });
     latch_first(DriveFaultReason::kStateChangeTimedOut, elsewhere);
   }
 }
@@ -160,6 +176,11 @@ void DriveGroup::update_fault(Instant now) noexcept {
     return;
   }
   reset_asked_ = false;
+  if (!may_reset(now)) {
+    feedback_.fault.reason = DriveFaultReason::kResetLimit;
+    feedback_.fault.code = rates::kResetLimit;
+    return;
+  }
   const bool anew = std::any_of(drives_.begin(), drives_.end(), [](const WheelDrive& drive) {
     return drive.phase() != WheelDrive::Phase::kOperational || needs_start_up(drive.fault().reason);
   });
@@ -172,6 +193,16 @@ void DriveGroup::update_fault(Instant now) noexcept {
   }
   resetting_ = true;
   since_ = now;
+}
+
+bool DriveGroup::may_reset(Instant now) noexcept {
+  std::optional<Instant>& oldest = resets_[next_reset_];
+  if (oldest.has_value() && now - *oldest < rates::kResetWindow) {
+    return false;
+  }
+  oldest = now;
+  next_reset_ = (next_reset_ + 1) % resets_.size();
+  return true;
 }
 
 void DriveGroup::update_resetting(Instant now) noexcept {

@@ -31,6 +31,8 @@ void WheelDrive::open() noexcept {
   startup_.open();
   encoder_.rebase();
   heartbeat_.forget();
+  rhythm_.forget();
+  tally_.forget();
   heard_ = {};
   status_ = {};
   fresh_ = false;
@@ -42,6 +44,7 @@ void WheelDrive::open() noexcept {
 void WheelDrive::expect_feedback(Instant now) noexcept {
   sync_ = now;
   last_feedback_ = last_feedback_.value_or(now);
+  tally_.sync();
   fresh_ = false;
 }
 
@@ -53,12 +56,17 @@ void WheelDrive::latch(DriveFaultReason reason, std::uint32_t code) noexcept {
   }
 }
 
-void WheelDrive::on_frame(const hal::CanFrame& frame) noexcept {
+void WheelDrive::on_frame(const hal::ReceivedFrame& received) noexcept {
+  const hal::CanFrame& frame = received.frame;
   const std::uint8_t node = node_id();
   if (frame.id == cob_id::tpdo1(node)) {
-    malformed_ += keep(heard_.feedback, parse_tpdo1(frame)) ? 0 : 1;
+    const bool whole = keep(heard_.feedback, parse_tpdo1(frame));
+    malformed_ += whole ? 0 : 1;
+    if (whole) {
+      tally_.heard();
+    }
   } else if (frame.id == cob_id::heartbeat(node)) {
-    hear_heartbeat(frame);
+    hear_heartbeat(received);
   } else if (frame.id == cob_id::sdo_answer(node)) {
     startup_.on_sdo(frame);
   } else if (frame.id == cob_id::emcy(node)) {
@@ -71,8 +79,8 @@ void WheelDrive::on_frame(const hal::CanFrame& frame) noexcept {
   }
 }
 
-void WheelDrive::hear_heartbeat(const hal::CanFrame& frame) noexcept {
-  const std::optional<NmtState> state = parse_heartbeat(frame);
+void WheelDrive::hear_heartbeat(const hal::ReceivedFrame& received) noexcept {
+  const std::optional<NmtState> state = parse_heartbeat(received.frame);
   if (!state.has_value()) {
     ++malformed_;
   } else if (*state == NmtState::kBootUp) {
@@ -80,6 +88,7 @@ void WheelDrive::hear_heartbeat(const hal::CanFrame& frame) noexcept {
     startup_.on_boot_up();
   } else {
     heard_.heartbeat = state;
+    rhythm_.heard(received.at);
     startup_.on_heartbeat(*state);
   }
 }
@@ -115,6 +124,10 @@ void WheelDrive::watch(Instant now) noexcept {
     latch(DriveFaultReason::kHeartbeatLost, 0);
   } else if (last_feedback_.has_value() && !answers(now)) {
     latch(DriveFaultReason::kFeedbackLost, 0);
+  } else if (tally_.erratic()) {
+    latch(DriveFaultReason::kFeedbackErratic, tally_.irregular());
+  } else if (rhythm_.twins()) {
+    latch(DriveFaultReason::kDuplicateNodeId, 0);
   }
 }
 

@@ -13,6 +13,8 @@
 #include "drivers/cia402/statusword.hpp"
 #include "drivers/drive_fault.hpp"
 #include "drivers/drive_startup.hpp"
+#include "drivers/feedback_tally.hpp"
+#include "drivers/heartbeat_rhythm.hpp"
 #include "drivers/wheel_encoder.hpp"
 
 namespace ivo::drivers {
@@ -36,7 +38,7 @@ class WheelDrive {
   void latch(DriveFaultReason reason, std::uint32_t code) noexcept;
 
   /// A frame that this node sent.
-  void on_frame(const hal::CanFrame& frame) noexcept;
+  void on_frame(const hal::ReceivedFrame& received) noexcept;
   void update(Instant now) noexcept;
   /// A frame of start-up to send, at most one a cycle.
   [[nodiscard]] std::optional<hal::CanFrame> next_frame(Instant now) noexcept { return startup_.next_frame(now); }
@@ -73,7 +75,7 @@ class WheelDrive {
     std::optional<DriveStatus> feedback;
   };
 
-  void hear_heartbeat(const hal::CanFrame& frame) noexcept;
+  void hear_heartbeat(const hal::ReceivedFrame& received) noexcept;
   void watch(Instant now) noexcept;
 
   DriveParameters parameters_;
@@ -81,6 +83,8 @@ class WheelDrive {
   DriveStartup startup_;
   WheelEncoder encoder_;
   HeartbeatConsumer heartbeat_{rates::kDriveHeartbeatTimeout};
+  HeartbeatRhythm rhythm_{rates::kDriveHeartbeat};
+  FeedbackTally tally_;
   Heard heard_;
   DriveStatus status_;
   bool fresh_ = false;

@@ -83,7 +83,7 @@ void ControlLoop::take_commands() noexcept {
 void ControlLoop::drain_bus() noexcept {
   const std::size_t received = bus_.receive(frames_, now_);
   for (std::size_t i = 0; i < received; ++i) {
-    drives_.on_frame(frames_[i].frame);
+    drives_.on_frame(frames_[i]);
   }
 }
 

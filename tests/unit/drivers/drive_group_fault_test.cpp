@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include "drivers/canopen/emcy.hpp"
-#include "drivers/canopen/nmt.hpp"
 #include "drivers/drive_fault_text.hpp"
 #include "tests/unit/drivers/rig.hpp"
 
@@ -34,16 +33,6 @@ const FaultCase kFaults[] = {
      DriveFaultReason::kFeedbackLost, milliseconds(16)},
     {"LostHeartbeat", [](Rig& rig) { rig.drives.drive(Wheel::kRearLeft).script().heartbeat_lost_from = Instant{}; },
      DriveFaultReason::kHeartbeatLost, milliseconds(156)},
-    {"ForeignPreOperational",
-     [](Rig& rig) {
-       provoke_with(rig, nmt_frame({NmtCommand::kEnterPreOperational, 3}));
-     },
-     DriveFaultReason::kLeftOperational, milliseconds(6)},
-    {"ForeignResetNode",
-     [](Rig& rig) {
-       provoke_with(rig, nmt_frame({NmtCommand::kResetNode, 3}));
-     },
-     DriveFaultReason::kRebooted, milliseconds(6)},
     {"Emergency",
      [](Rig& rig) {
        provoke_with(rig, emergency_frame(3, {0x4210, 0x09}));
@@ -165,8 +154,8 @@ TEST(DriveGroup, ADriveThatDoesNotPowerUpInTimeStopsTheEnabling) {
     rig.inject(torque_off);
     rig.cycle();
   }
-  EXPECT_EQ(rig.feedback.fault.reason, DriveFaultReason::kStateChangeTimedOut);
-  EXPECT_EQ(rig.feedback.fault.node_id, 3);
+  EXPECT_EQ(describe(rig.feedback.fault),
+            "drive 3 (rear left): does not take power: is its STO or the emergency stop open? (statusword 0240h)");
   EXPECT_FALSE(any_enabled(rig));
 }
 
@@ -204,7 +193,7 @@ TEST(DriveGroup, StopsWhenTheBusGoesAway) {
   ASSERT_TRUE(rig.drive_at(5.0));
   rig.bus.set_state(0, hal::BusState::kOff);
   EXPECT_TRUE(rig.run_until(GroupState::kFault));
-  EXPECT_EQ(rig.feedback.fault.reason, DriveFaultReason::kCommandsNotSent);
+  EXPECT_EQ(describe(rig.feedback.fault), "bus lost: bus-off");
   rig.run(milliseconds(500));
   EXPECT_FALSE(any_enabled(rig)) << "the drives miss our heartbeat";
   EXPECT_FALSE(rig.feedback.off) << "nobody can say so";

@@ -59,9 +59,9 @@ class Rig {
   /// One cycle of the loop: receive, update, write; the drives answer; 2 ms pass.
   const GroupFeedback& cycle() {
     std::array<hal::ReceivedFrame, 64> frames;
-    const std::size_t count = bus.port(0).receive(frames, Instant{});
+    const std::size_t count = bus.port(0).receive(frames, clock.now());
     for (std::size_t i = 0; i < count; ++i) {
-      group.on_frame(frames[i].frame);
+      group.on_frame(frames[i]);
     }
     const GroupFeedback& seen = group.update(clock.now());
     group.write(clock.now(), enable, targets);
@@ -108,7 +108,7 @@ class Rig {
   }
 
   /// A frame from a stranger on the bus.
-  void inject(const hal::CanFrame& frame) { bus.port(2).send({&frame, 1}, Instant{}); }
+  void inject(const hal::CanFrame& frame) { bus.port(2).send({&frame, 1}, clock.now()); }
 
   /// The last RPDO1 that went to `node_id`.
   [[nodiscard]] hal::CanFrame last_command(std::uint8_t node_id) const {
@@ -135,7 +135,7 @@ class Rig {
  private:
   void listen() {
     std::array<hal::ReceivedFrame, 64> frames;
-    const std::size_t count = bus.port(3).receive(frames, Instant{});
+    const std::size_t count = bus.port(3).receive(frames, clock.now());
     for (std::size_t i = 0; i < count; ++i) {
       log.push_back(frames[i].frame);
     }

@@ -192,8 +192,8 @@ TEST(StartUp, RefusesAnotherVendorOrProduct) {
   GroupFeedback feedback;
   for (int i = 0; i < 100 && feedback.state == GroupState::kBooting; ++i) {
     std::array<hal::ReceivedFrame, 64> frames;
-    const std::size_t count = bus.port(0).receive(frames, Instant{});
-    std::for_each_n(frames.begin(), count, [&](const hal::ReceivedFrame& r) { group.on_frame(r.frame); });
+    const std::size_t count = bus.port(0).receive(frames, clock.now());
+    std::for_each_n(frames.begin(), count, [&](const hal::ReceivedFrame& r) { group.on_frame(r); });
     feedback = group.update(clock.now());
     group.write(clock.now(), false, {});
     clock.sleep_until(clock.now() + rates::kCycle);
