@@ -12,6 +12,7 @@ using std::chrono_literals::operator""us;
 using std::chrono_literals::operator""s;
 
 inline constexpr Duration kCycle = 2ms;                     // 500 Hz: control loop and SYNC, unless the robot says 1 ms
+inline constexpr Duration kShortestCycle = 1ms;             // with two shared RPDOs
 inline constexpr Duration kControlwordRefresh = 50ms;       // of a layout whose controlwords go out when they change
 inline constexpr Duration kMasterHeartbeat = 50ms;          // our heartbeat on the bus (1017h of the master)
 inline constexpr Duration kMasterHeartbeatTimeout = 150ms;  // drives stop when ours is this late (1016h of each drive)

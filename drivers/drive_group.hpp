@@ -67,6 +67,8 @@ class DriveGroup {
   void on_frame(const hal::ReceivedFrame& received) noexcept;
   /// Valid until the next call.
   const GroupFeedback& update(Instant now) noexcept;
+  /// What update() returned last, with what fail() has made of it since.
+  [[nodiscard]] const GroupFeedback& feedback() const noexcept { return feedback_; }
   /// Sends at most kFramesPerWrite frames in one CanBus::send: start-up, SYNC, four RPDO1, which the drives act on at
   /// the next SYNC, and last our heartbeat: a bus that does not take all takes no heartbeat, nor is one sent in the
   /// write after, so drives that we do not reach stop by themselves. Without `enable` no frame goes out that could move

@@ -40,8 +40,9 @@ class WheelEncoder {
   [[nodiscard]] bool still() const noexcept;
 
  private:
-  static constexpr std::size_t kHistory = 32;
-  static_assert(kHistory * rates::kCycle > rates::kStandstillDwell + 4 * rates::kCycle, "the dwell, and some jitter");
+  static constexpr std::size_t kHistory = 64;
+  static_assert(kHistory * rates::kShortestCycle > rates::kStandstillDwell + 4 * rates::kShortestCycle,
+                "the dwell, and some jitter");
 
   struct Sample {
     std::int64_t counts = 0;

@@ -10,8 +10,8 @@ namespace {
 
 using std::chrono_literals::operator""ms;
 
-constexpr Duration kPositionEvery = 200ms;            // in the event log
-constexpr Duration kLongestStep = 2 * rates::kCycle;  // a late cycle must not let the velocity jump
+constexpr Duration kPositionEvery = 200ms;  // in the event log
+constexpr int kLongestStep = 2;             // cycles: a late one must not let the velocity jump
 // After this long in an end mode nobody waits for the drives any more: they stop by our missing heartbeat.
 constexpr Duration kGiveUp = rates::kStandstillTimeout + rates::kStateChangeTimeout;
 
@@ -39,7 +39,9 @@ ControlLoop::ControlLoop(const LoopSetup& setup, planner::Planner& planner, hal:
       gate_(planned_limits(setup), rates::kFeedbackTimeout),
       search_(planner.cells(), setup.searchers),
       object_(setup.object),
-      start_(setup.start) {
+      start_(setup.start),
+      longest_step_(kLongestStep * setup.robot.cycle),
+      fault_waits_(setup.fault_waits) {
   odometry_.reset(start_);
 }
 
@@ -49,15 +51,12 @@ void ControlLoop::open(Instant now) noexcept {
 }
 
 void ControlLoop::cycle(Instant now, std::int64_t skipped) noexcept {
-  dt_ = std::min(now - now_, kLongestStep);
+  dt_ = std::min(now - now_, longest_step_);
   now_ = now;
-  if (skipped > 0) {
-    counters_.skipped += static_cast<std::uint64_t>(skipped);
-    record(EventKind::kOverrun, 0, static_cast<std::int32_t>(skipped));
-  }
   take_commands();
   drain_bus();
   look_at_drives();
+  look_at_ourselves(skipped);
   look_for_object();
   decide_mode();
   write(pass_gate(clamp(choose_velocity())));
@@ -67,11 +66,22 @@ void ControlLoop::cycle(Instant now, std::int64_t skipped) noexcept {
 
 void ControlLoop::take_commands() noexcept {
   consent_ = false;
+  clear_asked_ = false;
   StopCause cause = stop_requested_.load(std::memory_order_relaxed) ? StopCause::kAsked : StopCause::kNone;
   for (OperatorCommand command{}; commands_.pop(command);) {
-    consent_ = consent_ || command == OperatorCommand::kConsent;
-    if (command != OperatorCommand::kConsent && cause == StopCause::kNone) {
-      cause = command == OperatorCommand::kNoConsent ? StopCause::kNoConsent : StopCause::kPlanNotKept;
+    switch (command) {
+      case OperatorCommand::kConsent:
+        consent_ = true;
+        break;
+      case OperatorCommand::kClearFault:
+        clear_asked_ = mode_ == Mode::kFault;
+        break;
+      case OperatorCommand::kNoConsent:
+      case OperatorCommand::kPlanNotKept:
+        cause = cause != StopCause::kNone                ? cause
+                : command == OperatorCommand::kNoConsent ? StopCause::kNoConsent
+                                                         : StopCause::kPlanNotKept;
+        break;
     }
   }
   if (cause != StopCause::kNone && stop_cause_ == StopCause::kNone) {
@@ -88,20 +98,40 @@ void ControlLoop::drain_bus() noexcept {
 }
 
 void ControlLoop::look_at_drives() noexcept {
-  const bool faulty_before = wheels_.state == drivers::GroupState::kFault;
+  if (clear_asked_) {
+    drives_.reset_fault();
+  }
   wheels_ = drives_.update(now_);
   if (wheels_.fresh) {
     feedback_at_ = now_;
     odometry_.update(wheels_.angle_rad);
   }
-  if (wheels_.state == drivers::GroupState::kFault && !faulty_before) {
-    record(EventKind::kDriveFault, static_cast<std::uint8_t>(wheels_.fault.wheel),
-           static_cast<std::int32_t>(wheels_.fault.reason));
+}
+
+void ControlLoop::look_at_ourselves(std::int64_t skipped) noexcept {
+  if (skipped > 0) {
+    counters_.skipped += static_cast<std::uint64_t>(skipped);
+    record(EventKind::kOverrun, 0, static_cast<std::int32_t>(skipped));
   }
+  if (skipped >= rates::kLatestPeriods && permissions(mode_).may_move) {
+    fail({.reason = drivers::DriveFaultReason::kCycleLate, .code = static_cast<std::uint32_t>(skipped)});
+  }
+  const drivers::DriveFault& fault = wheels_.fault;
+  if (wheels_.state == drivers::GroupState::kFault && fault.reason != fault_recorded_) {
+    record(EventKind::kDriveFault, static_cast<std::uint8_t>(fault.wheel), static_cast<std::int32_t>(fault.reason));
+  }
+  fault_recorded_ = wheels_.state == drivers::GroupState::kFault ? fault.reason : drivers::DriveFaultReason::kNone;
+}
+
+void ControlLoop::fail(const drivers::DriveFault& fault) noexcept {
+  drives_.fail(fault, now_);
+  wheels_ = drives_.feedback();
 }
 
 void ControlLoop::look_for_object() noexcept {
-  if (mode_ != Mode::kSearching || !search_started_) {
+  // A fault of the robot that waits to be cleared does not keep the others from searching.
+  const bool others_go_on = fault_waits_ && mode_ != Mode::kStopping && mode_ != Mode::kDone;
+  if (!search_started_ || (mode_ != Mode::kSearching && !others_go_on) || search_.state() != SearchState::kRunning) {
     return;
   }
   search_.update(now_, odometry_.pose().point(), following_.reached);
@@ -127,11 +157,12 @@ void ControlLoop::decide_mode() noexcept {
           .plan_ready = plan_ready_,
           .consent_given = consent_,
           .stop_asked = stop_cause_ != StopCause::kNone,
+          .clear_asked = clear_asked_,
           .search_ended = search_.state() != SearchState::kRunning,
           .drives_ready = enabled || wheels_.state == GroupState::kReady || wheels_.state == GroupState::kEnabling,
           .drives_enabled = enabled,
           .drives_standstill = wheels_.standstill && at_rest(moving_),
-          .drives_fault = wheels_.state == GroupState::kFault || bus_.state() >= hal::BusState::kUnconfirmed,
+          .drives_fault = wheels_.state == GroupState::kFault,
       },
       now_);
   if (mode_ != before) {
@@ -139,6 +170,9 @@ void ControlLoop::decide_mode() noexcept {
   }
   if (mode_ == Mode::kSearching && enabled && !search_started_) {
     begin_search();
+  }
+  if (before == Mode::kFault && mode_ != before) {
+    record(EventKind::kFaultCleared);
   }
 }
 
@@ -228,7 +262,8 @@ void ControlLoop::think_a_slice(planner::Budget budget) noexcept {
 }
 
 void ControlLoop::publish() noexcept {
-  const bool ended = mode_ == Mode::kDone || mode_ == Mode::kFault;
+  const bool given_up = mode_ == Mode::kFault && (!fault_waits_ || stop_cause_ != StopCause::kNone);
+  const bool ended = mode_ == Mode::kDone || given_up;
   finished_ = ended && (wheels_.off || now_ - ended_ > kGiveUp);
 
   ++counters_.cycles;

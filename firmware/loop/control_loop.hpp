@@ -27,6 +27,8 @@ struct LoopSetup {
   Pose start;           ///< of the robot, agent 0
   Searchers searchers;  ///< agent 0 is the robot
   SearchObject object;
+  /// A fault does not finish the loop: somebody is there to clear it or to ask for a stop.
+  bool fault_waits = false;
 };
 
 class ControlLoop {
@@ -61,6 +63,7 @@ class ControlLoop {
   void take_commands() noexcept;
   void drain_bus() noexcept;
   void look_at_drives() noexcept;
+  void look_at_ourselves(std::int64_t skipped) noexcept;
   void look_for_object() noexcept;
   void decide_mode() noexcept;
   [[nodiscard]] Twist choose_velocity() noexcept;
@@ -72,6 +75,7 @@ class ControlLoop {
   void publish() noexcept;
 
   void begin_search() noexcept;
+  void fail(const drivers::DriveFault& fault) noexcept;
   void enter(Mode mode) noexcept;
   void record(EventKind kind, std::uint8_t agent = 0, std::int32_t code = 0, Point place = {}) noexcept;
 
@@ -87,6 +91,8 @@ class ControlLoop {
   SearchRun search_;
   SearchObject object_;
   Pose start_;
+  Duration longest_step_;
+  bool fault_waits_;
 
   // Of the cycle under way.
   Instant now_{};
@@ -94,11 +100,13 @@ class ControlLoop {
   drivers::GroupFeedback wheels_;
   Instant feedback_at_{};
   Mode mode_ = Mode::kPlanning;
+  drivers::DriveFaultReason fault_recorded_ = drivers::DriveFaultReason::kNone;
 
   Twist moving_;  // last sent
   PathFollower::Output following_;
   bool plan_ready_ = false;
   bool consent_ = false;
+  bool clear_asked_ = false;
   bool search_started_ = false;
   StopCause stop_cause_ = StopCause::kNone;
   Instant ended_{};

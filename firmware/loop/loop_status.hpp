@@ -46,7 +46,12 @@ struct LoopStatus {
   LoopCounters counters;
 };
 
-/// What the rest of the program may answer to the plans; stop is asked for by ControlLoop::request_stop.
-enum class OperatorCommand : std::uint8_t { kConsent, kNoConsent, kPlanNotKept };
+/// What the rest of the program may say; stop is asked for by ControlLoop::request_stop.
+enum class OperatorCommand : std::uint8_t {
+  kConsent,
+  kNoConsent,
+  kPlanNotKept,
+  kClearFault,  ///< in Mode::kFault: start the drives up again; motion needs consent anew
+};
 
 }  // namespace ivo::firmware

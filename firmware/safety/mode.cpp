@@ -33,11 +33,13 @@ constexpr auto kTransitions = std::to_array<Transition>({
 
     {Mode::kStarting, kDrivesFault, 0, Mode::kFault},
     {Mode::kStarting, kStopAsked, 0, Mode::kDone},
+    {Mode::kStarting, kSearchEnded, 0, Mode::kDone},  // by somebody else, while a fault was cleared
     {Mode::kStarting, 0, kPlanReady, Mode::kPlanning},
     {Mode::kStarting, kDrivesReady, 0, Mode::kAwaitingConsent},
 
     {Mode::kAwaitingConsent, kDrivesFault, 0, Mode::kFault},
     {Mode::kAwaitingConsent, kStopAsked, 0, Mode::kDone},
+    {Mode::kAwaitingConsent, kSearchEnded, 0, Mode::kDone},
     {Mode::kAwaitingConsent, 0, kPlanReady, Mode::kPlanning},
     {Mode::kAwaitingConsent, 0, kDrivesReady, Mode::kStarting},
     {Mode::kAwaitingConsent, kConsent, 0, Mode::kSearching},
@@ -53,6 +55,9 @@ constexpr auto kTransitions = std::to_array<Transition>({
     {Mode::kStopping, kStandstill, 0, Mode::kDone},
     {Mode::kStopping, kPowerLost, 0, Mode::kFault},
     {Mode::kStopping, kStopOverdue, 0, Mode::kFault},
+
+    // The drives' own fault goes first. What follows is as at the beginning: drives ready, then consent.
+    {Mode::kFault, kClearAsked, kDrivesFault | kStopAsked, Mode::kStarting},
 });
 
 const ModeRow& row_of(Mode mode) noexcept { return kModeRows[static_cast<std::size_t>(mode)]; }
@@ -79,6 +84,7 @@ Mode next_mode(Mode mode, Conditions conditions) noexcept {
 Mode ModeMachine::update(const ModeInputs& inputs, Instant now) noexcept {
   const Mode before = mode_;
   mode_ = next_mode(before, conditions(inputs, now));
+  clear_asked_ = mode_ == Mode::kFault && before == Mode::kFault && (clear_asked_ || inputs.clear_asked);
   if (mode_ != before && mode_ == Mode::kStopping) {
     stopping_since_ = now;
   }
@@ -99,6 +105,7 @@ Conditions ModeMachine::conditions(const ModeInputs& inputs, Instant now) const 
   set |= bit_if(inputs.drives_fault, kDrivesFault);
   set |= bit_if(enabled_before_ && !inputs.drives_enabled, kPowerLost);
   set |= bit_if(overdue, kStopOverdue);
+  set |= bit_if(mode_ == Mode::kFault && (clear_asked_ || inputs.clear_asked), kClearAsked);
   return set;
 }
 

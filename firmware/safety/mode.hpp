@@ -18,7 +18,7 @@ enum class Mode : std::uint8_t {
   kSearching,        ///< drives on, the robot moves
   kStopping,         ///< ramps down with the drives on until the wheels are at rest
   kDone,             ///< drives off; nothing leads away from here
-  kFault,            ///< drives off; nothing leads away from here
+  kFault,            ///< drives off; only an operator leads away from here, and back to consent
 };
 inline constexpr int kModes = 7;
 
@@ -43,7 +43,8 @@ inline constexpr Conditions kStandstill = 1 << 5;   ///< all four wheels at rest
 inline constexpr Conditions kDrivesFault = 1 << 6;  ///< at least one drive or the bus
 inline constexpr Conditions kPowerLost = 1 << 7;    ///< all four were enabled earlier in this search, and are not now
 inline constexpr Conditions kStopOverdue = 1 << 8;  ///< kStopping for longer than rates::kStandstillTimeout
-inline constexpr Conditions kAll = (1 << 9) - 1;
+inline constexpr Conditions kClearAsked = 1 << 9;   ///< somebody has asked, since kFault began, to clear the fault
+inline constexpr Conditions kAll = (1 << 10) - 1;
 }  // namespace condition
 
 /// One row of the table: in `from`, with all of `all_of` and none of `none_of`, go to `to`.
@@ -61,6 +62,7 @@ struct ModeInputs {
   bool plan_ready = false;
   bool consent_given = false;  ///< only its change to true counts, and only while consent is awaited
   bool stop_asked = false;
+  bool clear_asked = false;  ///< in kFault it is remembered until the fault is gone
   bool search_ended = false;
   bool drives_ready = false;    ///< stays true while they are being enabled, and enabled
   bool drives_enabled = false;  ///< all four hold their speed under power
@@ -68,8 +70,8 @@ struct ModeInputs {
   bool drives_fault = false;
 };
 
-/// The table with what it must remember: whether consent was held before, whether the drives were on, since when it
-/// stops.
+/// The table with what it must remember: whether consent was held before, whether the drives were on, whether the fault
+/// is to be cleared, since when it stops.
 class ModeMachine {
  public:
   /// One cycle. `now` never goes back.
@@ -82,6 +84,7 @@ class ModeMachine {
   Mode mode_ = Mode::kPlanning;
   bool consent_before_ = false;
   bool enabled_before_ = false;
+  bool clear_asked_ = false;
   Instant stopping_since_{};
 };
 

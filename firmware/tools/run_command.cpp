@@ -69,6 +69,7 @@ LoopSetup setup_of(const MissionInputs& inputs, const SearchObject& object) {
   }
   const AgentSpec& robot = inputs.file.mission.agents.front();
   setup.start = {robot.start.x_m, robot.start.y_m, robot.heading_rad};
+  setup.fault_waits = ConsentQuestion::possible();
   return setup;
 }
 
@@ -89,7 +90,7 @@ class Run {
   void to_the_end() {
     terminal_.show_mission(world_.description());
     const Instant begin = world_.clock().now();
-    scheduler_ = Scheduler(begin, rates::kCycle);
+    scheduler_ = Scheduler(begin, view_.inputs.robot.cycle);
     loop_.open(begin);
     if (world_.own_time()) {
       for (int cycle = 0; one_cycle(); ++cycle) {
@@ -188,8 +189,10 @@ class Run {
           terminal_.show_search(status);
         }
         break;
-      case Mode::kDone:
       case Mode::kFault:
+        waited = seek_clearing(status);
+        break;
+      case Mode::kDone:
         break;
     }
     if (wait_ms > 0 && !waited) {
@@ -220,7 +223,7 @@ class Run {
     if (answered_ || write_failed_) {
       return false;
     }
-    if (options_.yes) {
+    if (options_.yes && !consented_before_) {
       answered_ = loop_.command(OperatorCommand::kConsent);
       return false;
     }
@@ -229,11 +232,35 @@ class Run {
       return false;
     }
     if (!question_.asked()) {
-      question_.ask();
+      question_.ask("consent", consented_before_ ? "Go on with the search? The robot will move; Ctrl-C stops it. [y/N] "
+                                                 : "Start the search? The robot will move; Ctrl-C stops it. [y/N] ");
     }
     const Answer answer = question_.poll(kObserveEveryMs);
     if (answer != Answer::kNone) {
       answered_ = loop_.command(answer == Answer::kYes ? OperatorCommand::kConsent : OperatorCommand::kNoConsent);
+    }
+    return true;
+  }
+
+  /// True when it waited for an answer.
+  bool seek_clearing(const LoopStatus& status) {
+    if (!ConsentQuestion::possible() || status.finished) {
+      return false;
+    }
+    if (!clear_question_.asked()) {
+      terminal_.end_line();
+      terminal_.show_fault(status);
+      clear_question_.ask("fault", "Start the drives up again? Nothing moves before you consent anew. [y/N] ");
+    }
+    const Answer answer = clear_question_.poll(kObserveEveryMs);
+    if (answer == Answer::kYes) {
+      (void)loop_.command(OperatorCommand::kClearFault);
+      clear_question_ = {};
+      question_ = {};
+      answered_ = false;
+      consented_before_ = true;
+    } else if (answer == Answer::kNo) {
+      loop_.request_stop();
     }
     return true;
   }
@@ -256,6 +283,8 @@ class Run {
   EventLog log_;
   RunTerminal terminal_;
   ConsentQuestion question_;
+  ConsentQuestion clear_question_;
+  bool consented_before_ = false;  // and a fault has ended that: --yes was for the first time
   Scheduler scheduler_{Instant{}, rates::kCycle};
   std::int64_t skipped_ = 0;
   bool plan_shown_ = false;

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <string_view>
 
+#include "drivers/drive_fault_text.hpp"
 #include "firmware/tools/plan_terminal.hpp"
 
 namespace ivo::firmware {
@@ -60,6 +61,12 @@ void RunTerminal::show_search(const LoopStatus& status) {
   }
 }
 
+void RunTerminal::show_fault(const LoopStatus& status) const {
+  say("fault", status.drive_fault.reason != drivers::DriveFaultReason::kNone
+                   ? drivers::describe(status.drive_fault)
+                   : "the drives lost power or did not come to rest");
+}
+
 void RunTerminal::show_result(const RunOutcome& outcome, const LoopStatus& status, const planner::Plan* plan,
                               std::uint64_t lapses) {
   line_.end();
@@ -100,12 +107,11 @@ void RunTerminal::show_file(const std::string& path) const { say("wrote", path);
 
 bool ConsentQuestion::possible() { return isatty(STDIN_FILENO) != 0 && isatty(STDOUT_FILENO) != 0; }
 
-void ConsentQuestion::ask() {
+void ConsentQuestion::ask(const char* label, const char* question) {
   asked_ = true;
-  (void)tcflush(STDIN_FILENO, TCIFLUSH);  // what was typed before the plans were shown is no consent to them
+  (void)tcflush(STDIN_FILENO, TCIFLUSH);  // what was typed before the question was shown is no answer to it
   open_ = true;
-  (void)std::printf("%s",
-                    labelled("consent", "Start the search? The robot will move; Ctrl-C stops it. [y/N] ").c_str());
+  (void)std::printf("%s", labelled(label, question).c_str());
   (void)std::fflush(stdout);
 }
 

@@ -19,6 +19,7 @@ class RunTerminal {
   void show_plan(const planner::Plan& plan);
   void show_starting(const LoopStatus& status);
   void show_search(const LoopStatus& status);
+  void show_fault(const LoopStatus& status) const;
   void show_result(const RunOutcome& outcome, const LoopStatus& status, const planner::Plan* plan,
                    std::uint64_t lapses);
   void show_file(const std::string& path) const;
@@ -33,12 +34,12 @@ class RunTerminal {
 
 enum class Answer : std::uint8_t { kNone, kYes, kNo };
 
-/// Asks once whether to start; the answer comes from poll().
+/// Asks one question once; the answer comes from poll().
 class ConsentQuestion {
  public:
-  /// Whether there is a terminal on which somebody sees the plans and can answer.
+  /// Whether there is a terminal on which somebody sees what is asked and can answer.
   [[nodiscard]] static bool possible();
-  void ask();
+  void ask(const char* label, const char* question);
   /// Waits up to `wait_ms` for a line; a signal ends the wait.
   [[nodiscard]] Answer poll(int wait_ms);
   [[nodiscard]] bool asked() const noexcept { return asked_; }

@@ -19,7 +19,7 @@ namespace {
 class VirtualWorld final : public RunWorld {
  public:
   VirtualWorld(const RunOptions& options, const Robot& robot)
-      : paced_(options.speed, from_seconds(seconds(rates::kCycle) * options.speed)),
+      : paced_(options.speed, from_seconds(seconds(robot.cycle) * options.speed)),
         max_speed_(options.max_speed),
         speed_(options.speed),
         drives_(bus_.port(1), robot, drivers::SimDrives::TimeFrom::kClock) {

@@ -22,6 +22,7 @@ class SearchRig {
     std::optional<Point> object;
     drivers::SimDrives::Scripts scripts{};
     int generations = 3;
+    bool fault_waits = false;
   };
 
   explicit SearchRig(const Options& options)
@@ -30,6 +31,7 @@ class SearchRig {
     firmware::LoopSetup setup{.robot = robot_, .start = {1.5, 1.5, 0.0}, .searchers = {}, .object = {}};
     (void)setup.searchers.push_back({.kind = AgentKind::kRobot, .start = {1.5, 1.5}, .speed_mps = 0.5});
     (void)setup.searchers.push_back({.kind = AgentKind::kPerson, .start = {10.5, 1.5}, .speed_mps = 0.5});
+    setup.fault_waits = options.fault_waits;
     if (options.object) {
       setup.object = firmware::SearchObject(*options.object, FindRule::kSight);
     }
@@ -39,8 +41,8 @@ class SearchRig {
   }
 
   /// One cycle, then the drives answer and 2 ms pass.
-  const firmware::LoopStatus& cycle() {
-    loop_->cycle(now_, 0);
+  const firmware::LoopStatus& cycle(std::int64_t skipped = 0) {
+    loop_->cycle(now_, skipped);
     drives_.update(now_);
     now_ += rates::kCycle;
     true_position_.x_m += velocity({1, 1, 1, 1}) * seconds(rates::kCycle);

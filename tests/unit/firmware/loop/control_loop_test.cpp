@@ -212,6 +212,109 @@ TEST(ControlLoop, TheSameRunHasTheSameEventsBitForBit) {
   }
 }
 
+class ClearingAFault : public testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(rig_.start_search());
+    rig_.run(4s);
+    ASSERT_TRUE(rig_.wheels_turn());
+  }
+  void expect_stopped_in_fault() {
+    ASSERT_TRUE(rig_.run_until(Mode::kFault, 200ms));
+    rig_.run(2s);
+    EXPECT_FALSE(rig_.wheels_turn());
+    EXPECT_FALSE(rig_.loop().finished()) << "somebody may clear it";
+  }
+  void clear() { rig_.loop().command(OperatorCommand::kClearFault); }
+  SearchRig rig_{{.object = {}, .fault_waits = true}};
+};
+
+TEST_F(ClearingAFault, TheRobotGoesOnAfterClearingAndConsentAndNotBefore) {
+  rig_.drives().drive(Wheel::kRearLeft).script().reboot_at = rig_.now();
+  expect_stopped_in_fault();
+  const Point stood = rig_.true_position();
+  rig_.loop().command(OperatorCommand::kConsent);
+  rig_.run(2s);
+  EXPECT_EQ(rig_.loop().status().mode, Mode::kFault) << "consent clears nothing";
+  clear();
+  ASSERT_TRUE(rig_.run_until(Mode::kAwaitingConsent, 20s));
+  EXPECT_TRUE(has(rig_.events(), EventKind::kFaultCleared));
+  rig_.run(5s);
+  EXPECT_EQ(rig_.loop().status().mode, Mode::kAwaitingConsent);
+  EXPECT_EQ(rig_.true_position().x_m, stood.x_m);
+  rig_.loop().command(OperatorCommand::kConsent);
+  ASSERT_TRUE(rig_.run_until(Mode::kSearching, 1s));
+  rig_.run(3s);
+  EXPECT_TRUE(rig_.wheels_turn());
+  ASSERT_TRUE(rig_.run_until(Mode::kDone));
+  const planner::AgentPath& path = rig_.loop().plan().paths[0];
+  EXPECT_NEAR(rig_.true_position().x_m, path.waypoints.back().x_m, 0.1);
+  EXPECT_NEAR(rig_.true_position().y_m, path.waypoints.back().y_m, 0.1);
+}
+
+TEST_F(ClearingAFault, ABusThatComesBackIsUsedAgain) {
+  rig_.bus().set_state(0, hal::BusState::kDown);
+  expect_stopped_in_fault();
+  rig_.run(2s);  // nobody can say that the wheels rest: the quick stop is given all its time
+  clear();
+  rig_.run(1s);
+  EXPECT_EQ(rig_.loop().status().mode, Mode::kFault) << "it is still down";
+  rig_.bus().set_state(0, hal::BusState::kActive);
+  rig_.run(1s);
+  EXPECT_EQ(rig_.loop().status().mode, Mode::kFault) << "nobody has asked since";
+  clear();
+  ASSERT_TRUE(rig_.run_until(Mode::kAwaitingConsent, 20s));
+  rig_.loop().command(OperatorCommand::kConsent);
+  ASSERT_TRUE(rig_.run_until(Mode::kSearching, 1s));
+}
+
+TEST_F(ClearingAFault, AStopEndsTheRunInstead) {
+  rig_.drives().drive(Wheel::kRearLeft).script().fault_at = rig_.now();
+  expect_stopped_in_fault();
+  rig_.loop().request_stop();
+  rig_.run(10ms);
+  EXPECT_TRUE(rig_.loop().finished());
+  clear();
+  rig_.run(1s);
+  EXPECT_EQ(rig_.loop().status().mode, Mode::kFault);
+}
+
+TEST_F(ClearingAFault, AskedForBeforeThereIsOneCountsForNothing) {
+  clear();
+  rig_.run(1s);
+  rig_.drives().drive(Wheel::kRearLeft).script().fault_at = rig_.now();
+  expect_stopped_in_fault();
+  rig_.run(2s);
+  EXPECT_EQ(rig_.loop().status().mode, Mode::kFault);
+}
+
+TEST_F(ClearingAFault, ASearchThatSomebodyElseEndedMeanwhileIsOver) {
+  SearchRig rig({.object = Point{10.5, 6.0}, .fault_waits = true});
+  ASSERT_TRUE(rig.start_search());
+  rig.run(1s);
+  rig.drives().drive(Wheel::kRearLeft).script().fault_at = rig.now();
+  ASSERT_TRUE(rig.run_until(Mode::kFault, 200ms));
+  for (int i = 0; i < 100'000 && rig.loop().status().search == SearchState::kRunning; ++i) {
+    rig.cycle();
+  }
+  ASSERT_EQ(rig.loop().status().finder, 1);
+  rig.loop().command(OperatorCommand::kClearFault);
+  EXPECT_TRUE(rig.run_until(Mode::kDone, 20s));
+}
+
+TEST(ControlLoop, AVeryLateCycleStopsTheRobotAndAFewLostPeriodsDoNot) {
+  SearchRig rig({});
+  ASSERT_TRUE(rig.start_search());
+  rig.run(4s);
+  rig.cycle(rates::kLatestPeriods - 1);
+  EXPECT_EQ(rig.loop().status().mode, Mode::kSearching);
+  rig.cycle(rates::kLatestPeriods);
+  EXPECT_EQ(rig.loop().status().mode, Mode::kFault);
+  EXPECT_EQ(rig.loop().status().drive_fault.reason, drivers::DriveFaultReason::kCycleLate);
+  rig.run(1s);
+  EXPECT_FALSE(rig.wheels_turn());
+}
+
 TEST(ControlLoop, SkippedPeriodsAreCountedAndRecorded) {
   SearchRig rig({});
   rig.loop().cycle(rig.now(), 3);

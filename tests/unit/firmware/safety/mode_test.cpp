@@ -34,10 +34,20 @@ void walk(Visit visit) {
 bool has(Conditions set, Conditions bit) { return (set & bit) != 0; }
 bool moves(Mode mode) { return permissions(mode).may_move; }
 
-TEST(ModeTable, LeadsNowhereFromDoneAndFault) {
+TEST(ModeTable, LeadsNowhereFromDone) {
   walk([](Mode mode, Conditions, Mode next) {
-    if (mode == Mode::kDone || mode == Mode::kFault) {
+    if (mode == Mode::kDone) {
       ASSERT_EQ(next, mode);
+    }
+  });
+}
+
+TEST(ModeTable, LeadsFromFaultOnlyByAnOperatorWithTheFaultGoneAndToNoMotion) {
+  walk([](Mode mode, Conditions set, Mode next) {
+    if (mode == Mode::kFault && next != mode) {
+      ASSERT_TRUE(has(set, kClearAsked));
+      ASSERT_FALSE(has(set, kDrivesFault) || has(set, kStopAsked));
+      ASSERT_EQ(next, Mode::kStarting);
     }
   });
 }
