@@ -30,25 +30,6 @@ std::string_view name_of(Wheel wheel) noexcept {
   return "unknown wheel";
 }
 
-std::string_view bus_state(std::uint32_t code) noexcept {
-  switch (static_cast<hal::BusState>(code)) {
-    case hal::BusState::kPassive:
-      return "the controller is error passive";
-    case hal::BusState::kUnconfirmed:
-      return "nothing that is sent leaves: no other node, another bit rate, or no cable";
-    case hal::BusState::kOff:
-      return "bus-off";
-    case hal::BusState::kDown:
-      return "the interface is down";
-    case hal::BusState::kRemoved:
-      return "the interface was removed";
-    case hal::BusState::kActive:
-    case hal::BusState::kWarning:
-      break;
-  }
-  return "unknown state";
-}
-
 std::string reason_of(const DriveFault& fault) {
   switch (fault.reason) {
     case DriveFaultReason::kNone:
@@ -99,7 +80,7 @@ std::string reason_of(const DriveFault& fault) {
     case DriveFaultReason::kResetLimit:
       return "faults come back: " + std::to_string(fault.code) + " resets did not help; start anew when it is mended";
     case DriveFaultReason::kBusLost:
-      return "bus lost: " + std::string(bus_state(fault.code));
+      return "bus lost: " + std::string(name_of(static_cast<hal::BusState>(fault.code)));
     case DriveFaultReason::kFramesLost:
       return std::to_string(fault.code) + " frames were lost on the way in: the receive queue overflowed";
     case DriveFaultReason::kBusFlooded:

@@ -95,6 +95,10 @@ void ControlLoop::drain_bus() noexcept {
   for (std::size_t i = 0; i < received; ++i) {
     drives_.on_frame(frames_[i]);
   }
+  if (bus_.state() != counters_.bus_state) {
+    counters_.bus_state = bus_.state();
+    record(EventKind::kBusState, 0, static_cast<std::int32_t>(counters_.bus_state));
+  }
 }
 
 void ControlLoop::look_at_drives() noexcept {
@@ -268,7 +272,6 @@ void ControlLoop::publish() noexcept {
 
   ++counters_.cycles;
   counters_.bus = bus_.counters();
-  counters_.bus_state = bus_.state();
   counters_.refused_frames = bus_.refused();
   counters_.malformed_frames = drives_.malformed();
   counters_.refused_commands = 0;

@@ -21,6 +21,7 @@ enum class EventKind : std::uint8_t {
   kPathsEnded,     //
   kDriveFault,     ///< agent: wheel; code: DriveFaultReason
   kOverrun,        ///< code: periods skipped
+  kBusState,       ///< code: hal::BusState, changed
   kFaultCleared,   ///< by the operator; the drives start up again
 };
 

@@ -114,6 +114,8 @@ std::string EventLog::line(const Event& event) const {
       return text("drive fault", field("wheel", std::int32_t{event.agent}) + field("reason", event.code));
     case EventKind::kOverrun:
       return text("overrun", field("periods", event.code));
+    case EventKind::kBusState:
+      return text("bus", field("state", quoted(hal::name_of(static_cast<hal::BusState>(event.code)))));
     case EventKind::kFaultCleared:
       return text("fault cleared");
   }

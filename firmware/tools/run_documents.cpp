@@ -31,9 +31,6 @@ RunOutcome outcome_of(const RunView& run, const LoopStatus& status, bool stalled
     if (status.drive_fault.reason != drivers::DriveFaultReason::kNone) {
       return {RunEnd::kFault, drivers::describe(status.drive_fault)};
     }
-    if (status.counters.bus_state >= hal::BusState::kOff) {
-      return {RunEnd::kFault, "the CAN bus is off, down or gone"};
-    }
     return {RunEnd::kFault, "the drives lost power or did not come to rest"};
   }
   if (!status.power_off) {

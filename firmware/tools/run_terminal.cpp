@@ -24,6 +24,11 @@ std::string positions(const RunView& run, const LoopStatus& status) {
   return text;
 }
 
+std::string bus_text(const LoopStatus& status) {
+  const hal::BusState state = status.counters.bus_state;
+  return state == hal::BusState::kActive ? "" : "  bus: " + std::string(hal::name_of(state));
+}
+
 }  // namespace
 
 RunTerminal::RunTerminal(const RunView& run) : run_(run) {}
@@ -57,7 +62,8 @@ void RunTerminal::show_search(const LoopStatus& status) {
   constexpr int kParts = 1000;
   const double share = std::min(1.0, seconds(status.search_time) / std::max(1.0, horizon_s_));
   if (line_.due(static_cast<int>(kParts * share), kParts)) {
-    line_.draw("searching", format("%6.1f s", seconds(status.search_time)) + positions(run_, status));
+    line_.draw("searching",
+               format("%6.1f s", seconds(status.search_time)) + positions(run_, status) + bus_text(status));
   }
 }
 

@@ -1,9 +1,11 @@
 // A CAN interface as the loop uses it: nothing here waits, allocates or throws.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 #include "config/base/time.hpp"
 #include "hal/api/can_frame.hpp"
@@ -20,6 +22,20 @@ enum class BusState : std::uint8_t {
   kDown,         ///< the interface is not up
   kRemoved,      ///< it is not there
 };
+inline constexpr int kBusStates = 7;
+
+/// In words for a person, as part of a sentence.
+[[nodiscard]] constexpr std::string_view name_of(BusState state) noexcept {
+  constexpr std::array<std::string_view, kBusStates> kNames{
+      "active",
+      "error warning",
+      "error passive",
+      "nothing that is sent leaves: no other node, another bit rate, or no cable",
+      "bus-off",
+      "the interface is down",
+      "the interface was removed"};
+  return kNames[static_cast<std::size_t>(state)];
+}
 [[nodiscard]] constexpr bool lost(BusState state) noexcept { return state >= BusState::kUnconfirmed; }
 
 struct BusCounters {

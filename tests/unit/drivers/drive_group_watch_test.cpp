@@ -94,7 +94,7 @@ TEST_F(DriveGroupWatch, AFloodIsNamed) {
 TEST_F(DriveGroupWatch, AnErrorPassiveControllerStopsAllFour) {
   rig_.bus.set_state(0, hal::BusState::kPassive);
   EXPECT_EQ(next(), DriveFaultReason::kBusLost);
-  EXPECT_EQ(describe(rig_.feedback.fault), "bus lost: the controller is error passive");
+  EXPECT_EQ(describe(rig_.feedback.fault), "bus lost: error passive");
   expect_stopped_command(rig_);
 }
 
