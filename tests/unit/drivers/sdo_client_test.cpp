@@ -17,10 +17,12 @@ hal::CanFrame answer(std::uint8_t command, std::uint32_t data, ObjectAddress add
 class SdoClientUnderTest : public testing::Test {
  protected:
   void upload(std::uint8_t bytes) {
+    client_.forget();
     client_.start_upload(kObject, bytes);
     ASSERT_TRUE(client_.poll(now_).has_value());
   }
   void download(std::uint8_t bytes, std::uint32_t value) {
+    client_.forget();
     client_.start_download(kObject, bytes, value);
     ASSERT_TRUE(client_.poll(now_).has_value());
   }
@@ -43,6 +45,7 @@ TEST_F(SdoClientTest, AsksForAnObjectOnce) {
 TEST_F(SdoClientTest, WritesWithTheCommandOfTheSize) {
   const std::array<std::uint8_t, 5> commands{0, 0x2F, 0x2B, 0x27, 0x23};
   for (std::uint8_t bytes = 1; bytes <= 4; ++bytes) {
+    client_.forget();
     client_.start_download({0x60FF, 2}, bytes, 0xFFFFFFFF);
     const auto request = client_.poll(now_);
     ASSERT_TRUE(request.has_value());
@@ -80,11 +83,41 @@ TEST_F(SdoClientTest, RefusesAnAnswerShorterThanTheObjectAndSaysSo) {
   EXPECT_FALSE(client_.poll(now_).has_value());
 }
 
-TEST_F(SdoClientTest, RefusesASegmentedAnswerAndClosesTheChannel) {
+TEST_F(SdoClientTest, AbortsWhatIsUnderWayBeforeItBeginsAnew) {
   upload(4);
-  client_.on_frame(answer(0x41, 20));
-  EXPECT_EQ(client_.abort_code(), SdoAbort::kCommandSpecifier);
-  EXPECT_EQ(client_.poll(now_), sdo_frame(0x603, {0x80, kObject, 0x05040001}));
+  client_.start_download({0x6060, 0}, 1, 9);
+  EXPECT_FALSE(client_.awaiting_answer());
+  EXPECT_EQ(client_.poll(now_), sdo_frame(0x603, {0x80, kObject, 0x08000000}));
+  EXPECT_EQ(client_.poll(now_), sdo_frame(0x603, {0x2F, {0x6060, 0}, 9}));
+  client_.on_frame(answer(0x43, 7));
+  EXPECT_TRUE(client_.awaiting_answer()) << "late, of the aborted one";
+  client_.on_frame(answer(0x60, 0, {0x6060, 0}));
+  EXPECT_EQ(client_.status(), SdoStatus::kDone);
+}
+
+TEST_F(SdoClientTest, SendsItsAbortThoughTheNextTransferHasBegun) {
+  upload(4);
+  client_.on_frame(answer(0x4B, 0x1234));
+  ASSERT_EQ(client_.status(), SdoStatus::kAborted);
+  client_.start_upload(kObject, 2);
+  EXPECT_EQ(client_.poll(now_), sdo_frame(0x603, {0x80, kObject, 0x06070013}));
+  EXPECT_EQ(client_.poll(now_), sdo_frame(0x603, {0x40, kObject, 0}));
+}
+
+TEST_F(SdoClientTest, SaysNothingToANodeThatWasReset) {
+  upload(4);
+  client_.forget();
+  EXPECT_EQ(client_.status(), SdoStatus::kIdle);
+  EXPECT_FALSE(client_.poll(now_).has_value());
+  client_.start_upload(kObject, 2);
+  EXPECT_EQ(client_.poll(now_)->data[0], 0x40);
+}
+
+TEST_F(SdoClientTest, DropsAnswersOfAnotherNode) {
+  upload(1);
+  client_.on_frame(sdo_frame(0x582, {0x4F, kObject, 9}));
+  client_.on_frame(sdo_frame(0x603, {0x4F, kObject, 9}));
+  EXPECT_TRUE(client_.awaiting_answer());
 }
 
 TEST_F(SdoClientTest, TakesTheConfirmationOfAWrite) {
