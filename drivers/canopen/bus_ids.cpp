@@ -1,0 +1,47 @@
+#include "drivers/canopen/bus_ids.hpp"
+
+#include <algorithm>
+
+#include "config/base/contract.hpp"
+#include "drivers/canopen/cob_id.hpp"
+
+namespace ivo::drivers {
+
+BusIds bus_ids(const Robot& robot) noexcept {
+  BusIds ids;
+  const auto add = [&ids](std::uint16_t id) {
+    if (std::find(ids.begin(), ids.end(), id) == ids.end()) {
+      IVO_CONTRACT(ids.push_back(id));
+    }
+  };
+  add(cob_id::kNmt);
+  add(cob_id::kSync);
+  add(cob_id::heartbeat(robot.master_node_id));
+  for (const DriveParameters& drive : robot.drives) {
+    add(cob_id::emcy(drive.node_id));
+    for (std::uint8_t number = 1; number <= cob_id::kPdos; ++number) {
+      add(cob_id::tpdo(number, drive.node_id));
+      add(cob_id::rpdo(number, drive.node_id));
+    }
+    add(cob_id::sdo_answer(drive.node_id));
+    add(cob_id::sdo_request(drive.node_id));
+    add(cob_id::heartbeat(drive.node_id));
+  }
+  std::sort(ids.begin(), ids.end());
+  return ids;
+}
+
+bool sent_by_master(const Robot& robot, std::uint16_t id) noexcept {
+  if (id == cob_id::kNmt || id == cob_id::kSync || id == cob_id::heartbeat(robot.master_node_id)) {
+    return true;
+  }
+  return std::any_of(robot.drives.begin(), robot.drives.end(), [id](const DriveParameters& drive) {
+    bool sent = id == cob_id::sdo_request(drive.node_id);
+    for (std::uint8_t number = 1; number <= cob_id::kPdos; ++number) {
+      sent = sent || id == cob_id::rpdo(number, drive.node_id);
+    }
+    return sent;
+  });
+}
+
+}  // namespace ivo::drivers

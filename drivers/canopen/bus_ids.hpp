@@ -1,0 +1,24 @@
+// Every COB-ID that has a meaning on a robot's bus: what the socket's filter lets through.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "config/base/static_vector.hpp"
+#include "config/robot.hpp"
+
+namespace ivo::drivers {
+
+/// NMT, SYNC, the master's heartbeat; EMCY, PDO 1 to 4 both ways, SDO both ways and heartbeat of each drive.
+inline constexpr std::size_t kBusIds = 3 + kWheels * (1 + 4 + 4 + 2 + 1);
+using BusIds = StaticVector<std::uint16_t, kBusIds>;
+
+/// In ascending order, each once. What only a master sends (NMT, SYNC, RPDO, SDO requests, its heartbeat) is among
+/// them: our own come back as the confirmation that they left, anybody else's tell of another master. All PDOs are: a
+/// drive that cannot be mapped anew may use any of them. LSS and SDO of other nodes are not.
+[[nodiscard]] BusIds bus_ids(const Robot& robot) noexcept;
+
+/// True for the ids of bus_ids() that only a master sends.
+[[nodiscard]] bool sent_by_master(const Robot& robot, std::uint16_t id) noexcept;
+
+}  // namespace ivo::drivers
