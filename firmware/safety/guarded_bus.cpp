@@ -38,16 +38,15 @@ std::uint64_t GuardedBus::refused() const noexcept {
 }
 
 bool GuardedBus::passes(const hal::CanFrame& frame) noexcept {
-  const auto moved = rules_.drive_moved_by(frame);
-  const FrameRefusal refusal = rules_.judge(frame, moved && permits_[*moved]);
+  const MotionWays moved = rules_.moved_by(frame);
+  const bool permitted = moved != 0 ? (moved & ~permits_) == 0 : in_motion_;
+  const FrameRefusal refusal = rules_.judge(frame, permitted);
   if (refusal != FrameRefusal::kNone) {
     ++refused_[static_cast<std::size_t>(refusal)];
     last_refused_id_ = frame.id;
     return false;
   }
-  if (moved) {
-    permits_[*moved] = false;
-  }
+  permits_ = static_cast<MotionWays>(permits_ & ~moved);
   return true;
 }
 

@@ -20,10 +20,14 @@ class GuardedBus final : public hal::CanBus {
   /// `inner` is the caller's and must outlive this.
   GuardedBus(hal::CanBus& inner, const Robot& robot) noexcept : inner_(inner), rules_(robot) {}
 
-  /// Said anew in every cycle, between receive and send. A permit lets one frame that can move a wheel pass to each
-  /// drive; it ends when it is used, at the next receive, or with false. So a loop that hangs in sending, or goes round
-  /// without deciding, cannot go on moving the robot.
-  void permit_motion(bool permitted) noexcept { permits_.fill(permitted); }
+  /// Said anew in every cycle, between receive and send. A permit lets one frame that can move a wheel pass on each way
+  /// to each drive (MotionWays); it ends when it is used, at the next receive, or with false. So a loop that
+  /// hangs in sending, or goes round without deciding, cannot go on moving the robot. While motion is permitted no SDO
+  /// passes.
+  void permit_motion(bool permitted) noexcept {
+    in_motion_ = permitted;
+    permits_ = permitted ? kAllWays : MotionWays{0};
+  }
 
   std::size_t receive(std::span<hal::ReceivedFrame> frames, Instant now) noexcept override;
 
@@ -43,7 +47,8 @@ class GuardedBus final : public hal::CanBus {
 
   hal::CanBus& inner_;
   FrameRules rules_;
-  std::array<bool, kWheels> permits_{};
+  bool in_motion_ = false;
+  MotionWays permits_ = 0;  // not used yet
   std::array<std::uint64_t, kFrameRefusals> refused_{};
   std::optional<std::uint16_t> last_refused_id_;
 };

@@ -110,14 +110,14 @@ TEST_F(GuardedBusTest, LetsExactlyTheListedIdsAndSizesPassOfAllThereAre) {
         frame.data[0] = id == 0 ? 0x80 : 0;
         const bool of_drive = std::find(kNodes.begin(), kNodes.end(), id & 0x7F) != kNodes.end();
         const bool listed = (id == 0 && size == 2) || (id == 0x80 && size == 0) || (id == 0x77F && size == 1) ||
-                            ((id & ~0x7F) == 0x600 && of_drive && size == 8) ||
-                            ((id & ~0x7F) == 0x200 && of_drive && size == 6);
+                            ((id & ~0x7F) == 0x600 && of_drive && size == 8 && permit == 0) ||
+                            (id >= 0x200 && id < 0x600 && (id & 0x80) == 0 && of_drive && size == 6);
         ASSERT_EQ(bus_.send({&frame, 1}, Instant{}), listed ? 1U : 0U) << "id " << id << ", size " << size;
         passed += listed ? 1 : 0;
       }
     }
   }
-  EXPECT_EQ(passed, 2 * (3 + 4 + 4));
+  EXPECT_EQ(passed, 2 * (3 + 4 * 4) + 4);
   EXPECT_EQ(inner_.sent.size(), static_cast<std::size_t>(passed));
 }
 
@@ -125,7 +125,9 @@ TEST_F(GuardedBusTest, TellsAWrongSizeFromAnUnknownId) {
   EXPECT_EQ(refusal_of({.id = 0x80, .size = 1}), FrameRefusal::kWrongSize);
   EXPECT_EQ(refusal_of({.id = 0x201, .size = 8}), FrameRefusal::kWrongSize);
   EXPECT_EQ(refusal_of({.id = 0x203, .size = 6}), FrameRefusal::kNotListed);
-  EXPECT_EQ(refusal_of({.id = 0x301, .size = 6}), FrameRefusal::kNotListed) << "RPDO2";
+  EXPECT_EQ(refusal_of({.id = 0x303, .size = 6}), FrameRefusal::kNotListed) << "RPDO2 of no drive of ours";
+  EXPECT_EQ(refusal_of({.id = 0x301, .size = 8}), FrameRefusal::kWrongSize) << "RPDO2";
+  EXPECT_EQ(refusal_of({.id = 0x281, .size = 6}), FrameRefusal::kNotListed) << "a drive's TPDO2";
   EXPECT_EQ(refusal_of({.id = 0x701, .size = 1}), FrameRefusal::kNotListed)
       << "a drive's heartbeat is not ours to send";
 }
@@ -218,8 +220,20 @@ TEST_F(GuardedBusTest, RefusesTargetsBeyondTheWheelsLargestSpeedEvenWithAPermit)
   }
 }
 
+TEST_F(GuardedBusTest, RefusesEverySdoWhileMotionIsPermitted) {
+  const std::vector<CanFrame> requests{sdo(1, 0x40, 0x6061), sdo(2, 0x2B, 0x6040), sdo(5, 0x23, 0x60FF),
+                                       sdo(9, 0x60, 0x0000), sdo(9, 0x80, 0x1008, {0, 0, 4, 5})};
+  for (const CanFrame& request : requests) {
+    bus_.permit_motion(true);
+    EXPECT_EQ(refusal_of(request), FrameRefusal::kSdoInMotion);
+    EXPECT_EQ(refusal_of(command(1, 0x0F, 5)), FrameRefusal::kNone);
+    EXPECT_EQ(refusal_of(request), FrameRefusal::kSdoInMotion) << "the permit is used, but motion goes on";
+    bus_.permit_motion(false);
+    EXPECT_EQ(refusal_of(request), FrameRefusal::kNone);
+  }
+}
+
 TEST_F(GuardedBusTest, RefusesEveryOtherWriteOfTheControlwordBySdo) {
-  bus_.permit_motion(true);
   for (const std::uint8_t specifier :
        std::initializer_list<std::uint8_t>{0x20, 0x21, 0x22, 0x23, 0x27, 0x2B, 0x2F, 0xC0, 0xC2, 0xC6}) {
     EXPECT_EQ(refusal_of(sdo(1, specifier, 0x6040, {6, 0, 0, 0})), FrameRefusal::kMotionBySdo) << int{specifier};
@@ -246,7 +260,6 @@ TEST_F(GuardedBusTest, LetsTheControlwordBeWrittenBySdoAsTwoBytesOfZeroAndInNoOt
 }
 
 TEST_F(GuardedBusTest, RefusesATargetOtherThanZeroBySdo) {
-  bus_.permit_motion(true);
   for (const std::uint8_t specifier : std::initializer_list<std::uint8_t>{0x22, 0x23, 0x27, 0x2B, 0x2F}) {
     EXPECT_EQ(refusal_of(sdo(2, specifier, 0x60FF)), FrameRefusal::kNone) << int{specifier};
     for (std::size_t i = 0; i < 4; ++i) {
@@ -305,6 +318,129 @@ TEST_F(GuardedBusTest, ReceivesAndReportsLikeTheInnerBus) {
   EXPECT_EQ(frames[0].frame.id, 0x181);
   EXPECT_EQ(bus_.state(), hal::BusState::kPassive);
   EXPECT_EQ(bus_.counters().send_dropped, 3U);
+}
+
+TEST_F(GuardedBusTest, JudgesEveryRpdoThatADriveMayHaveFallenBackToAsStrictly) {
+  for (const int base : {0x200, 0x300, 0x400, 0x500}) {
+    const auto with_id = [base](CanFrame frame) {
+      frame.id = static_cast<std::uint16_t>(base + (frame.id & 0x7F));
+      return frame;
+    };
+    bus_.permit_motion(false);
+    EXPECT_EQ(refusal_of(with_id(command(5, 0x0F, 0))), FrameRefusal::kMotionNotPermitted);
+    EXPECT_EQ(refusal_of(with_id(command(5, 0x06, 1))), FrameRefusal::kMotionNotPermitted);
+    EXPECT_EQ(refusal_of(with_id(command(5, 0x06, 0))), FrameRefusal::kNone);
+    bus_.permit_motion(true);
+    EXPECT_EQ(refusal_of(with_id(command(5, 0x0F, kMaxTarget + 1))), FrameRefusal::kTargetTooHigh);
+    EXPECT_EQ(refusal_of(with_id(command(5, 0x0F, kMaxTarget))), FrameRefusal::kNone);
+    EXPECT_EQ(refusal_of(command(5, 0x0F, 1)), FrameRefusal::kMotionNotPermitted) << "one permit for all of them";
+  }
+}
+
+Robot shared_robot() {
+  Robot shared = robot();
+  shared.pdo_layout = PdoLayout::kShared;
+  return shared;
+}
+
+CanFrame targets(std::uint8_t first_node, std::int32_t first, std::int32_t second) {
+  CanFrame frame{.id = static_cast<std::uint16_t>(0x300 + first_node), .size = 8, .data = {}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    frame.data[i] = static_cast<std::uint8_t>(static_cast<std::uint32_t>(first) >> (8 * i));
+    frame.data[4 + i] = static_cast<std::uint8_t>(static_cast<std::uint32_t>(second) >> (8 * i));
+  }
+  return frame;
+}
+
+CanFrame controlword(std::uint8_t node, std::uint16_t word) {
+  CanFrame frame = command(node, word, 0);
+  frame.size = 2;
+  return frame;
+}
+
+class SharedGuardedBusTest : public testing::Test {
+ protected:
+  bool passes(const CanFrame& frame) { return bus_.send({&frame, 1}, Instant{}) == 1; }
+  /// Refused for this reason, and no other.
+  bool refused_for(FrameRefusal reason, const CanFrame& frame) {
+    const std::uint64_t before = bus_.refused(reason);
+    return !passes(frame) && bus_.refused(reason) == before + 1;
+  }
+  KeepingBus inner_;
+  GuardedBus bus_{inner_, shared_robot()};
+};
+
+TEST_F(SharedGuardedBusTest, LetsExactlyTheListedIdsAndSizesPassOfAllThereAre) {
+  for (int permit = 0; permit < 2; ++permit) {
+    for (int id = 0; id <= 0x7FF; ++id) {
+      for (int size = 0; size <= 9; ++size) {
+        bus_.permit_motion(permit != 0);
+        CanFrame frame{.id = static_cast<std::uint16_t>(id), .size = static_cast<std::uint8_t>(size), .data = {}};
+        frame.data[0] = id == 0 ? 0x80 : 0;
+        const bool of_drive = std::find(kNodes.begin(), kNodes.end(), id & 0x7F) != kNodes.end();
+        const bool listed = (id == 0 && size == 2) || (id == 0x80 && size == 0) || (id == 0x77F && size == 1) ||
+                            ((id & ~0x7F) == 0x600 && of_drive && size == 8 && permit == 0) ||
+                            ((id & ~0x7F) == 0x200 && of_drive && size == 2) ||
+                            ((id == 0x301 || id == 0x305) && size == 8);
+        ASSERT_EQ(passes(frame), listed) << "id " << id << ", size " << size;
+      }
+    }
+  }
+}
+
+TEST_F(SharedGuardedBusTest, JudgesTheTargetsOfBothDrivesInAFrame) {
+  for (const std::int32_t too_high : {kMaxTarget + 1, -kMaxTarget - 1, std::numeric_limits<std::int32_t>::min()}) {
+    bus_.permit_motion(true);
+    EXPECT_TRUE(refused_for(FrameRefusal::kTargetTooHigh, targets(1, too_high, 0)));
+    EXPECT_TRUE(refused_for(FrameRefusal::kTargetTooHigh, targets(1, 0, too_high)));
+    EXPECT_TRUE(refused_for(FrameRefusal::kTargetTooHigh, targets(5, 0, too_high)));
+  }
+  bus_.permit_motion(true);
+  EXPECT_TRUE(passes(targets(1, kMaxTarget, -kMaxTarget)));
+}
+
+TEST_F(SharedGuardedBusTest, KnowsTheLargestSpeedOfEachHalf) {
+  Robot uneven = shared_robot();
+  uneven.drives[3].velocity_per_radps = 50.0;
+  const FrameRules rules(uneven);
+  EXPECT_EQ(rules.judge(targets(5, 10'000, 1'000), true), FrameRefusal::kNone);
+  EXPECT_EQ(rules.judge(targets(5, 1'000, 1'001), true), FrameRefusal::kTargetTooHigh);
+}
+
+TEST_F(SharedGuardedBusTest, NeedsAPermitForATargetInEitherHalf) {
+  EXPECT_TRUE(refused_for(FrameRefusal::kMotionNotPermitted, targets(1, 1, 0)));
+  EXPECT_TRUE(refused_for(FrameRefusal::kMotionNotPermitted, targets(1, 0, -1)));
+  EXPECT_TRUE(passes(targets(1, 0, 0)));
+  bus_.permit_motion(true);
+  EXPECT_TRUE(passes(targets(1, 1, 0)));
+  EXPECT_TRUE(refused_for(FrameRefusal::kMotionNotPermitted, targets(1, 1, 0))) << "used";
+  EXPECT_TRUE(passes(targets(1, 0, 2))) << "the other half's is left";
+  EXPECT_TRUE(passes(targets(5, 1, 1)));
+}
+
+TEST_F(SharedGuardedBusTest, NeedsAPermitToEnableAndKeepsItApartFromTheTargets) {
+  EXPECT_TRUE(refused_for(FrameRefusal::kMotionNotPermitted, controlword(2, 0x0F)));
+  EXPECT_TRUE(passes(controlword(2, 0x07)));
+  bus_.permit_motion(true);
+  for (const std::uint8_t node : kNodes) {
+    EXPECT_TRUE(passes(controlword(node, 0x0F)));
+  }
+  EXPECT_TRUE(passes(targets(1, 5, 5)));
+  EXPECT_TRUE(passes(targets(5, 5, 5)));
+  EXPECT_TRUE(refused_for(FrameRefusal::kMotionNotPermitted, controlword(2, 0x0F))) << "used";
+}
+
+TEST_F(SharedGuardedBusTest, AlwaysLetsAStopPass) {
+  for (const std::uint16_t word : std::initializer_list<std::uint16_t>{0x00, 0x02, 0x06, 0x07, 0x80}) {
+    EXPECT_TRUE(passes(controlword(9, word)));
+  }
+  EXPECT_TRUE(passes(targets(5, 0, 0)));
+}
+
+TEST_F(SharedGuardedBusTest, RefusesTheCommandsOfTheOtherLayout) {
+  bus_.permit_motion(true);
+  EXPECT_TRUE(refused_for(FrameRefusal::kWrongSize, command(1, 0x06, 0)));
+  EXPECT_TRUE(refused_for(FrameRefusal::kNotListed, targets(2, 0, 0))) << "the second of a pair has no id of its own";
 }
 
 TEST(FrameRules, ListNoNodeIdThatCanNotBe) {
