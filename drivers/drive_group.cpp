@@ -26,7 +26,8 @@ DriveGroup::DriveGroup(hal::CanBus& bus, const Robot& robot) noexcept
       drives_{WheelDrive(robot, Wheel::kFrontLeft), WheelDrive(robot, Wheel::kFrontRight),
               WheelDrive(robot, Wheel::kRearLeft), WheelDrive(robot, Wheel::kRearRight)},
       watch_(robot),
-      master_node_id_(robot.master_node_id) {}
+      master_node_id_(robot.master_node_id),
+      layout_(robot.pdo_layout) {}
 
 void DriveGroup::open(Instant now) noexcept {
   for (WheelDrive& drive : drives_) {
@@ -35,6 +36,7 @@ void DriveGroup::open(Instant now) noexcept {
   watch_.open(bus_);
   enter(GroupState::kBooting, now);
   synchronous_ = false;
+  controlwords_.forget();
   enable_was_false_ = false;
   voltage_off_ = true;
   told_off_ = false;
@@ -75,13 +77,18 @@ void DriveGroup::write(Instant now, bool enable, const WheelTargets& targets) no
     add(sync_frame());
     syncs_since_off_ = told_off_ ? std::min(syncs_since_off_ + 1, kSyncsToAct) : 0;
     told_off_ = true;
+    GroupCommands commands{};
+    GroupChannels channels{};
     for (std::size_t i = 0; i < drives_.size(); ++i) {
       drives_[i].expect_feedback(now);
       const double radps = state_ == GroupState::kEnabled ? targets.radps[i] : 0.0;
       const std::uint16_t word = controlword_for(drives_[i], now);
       told_off_ = told_off_ && tells_off(word);
-      add(drives_[i].command_frame(word, radps));
+      commands[i] = drives_[i].command(word, radps);
+      channels[i] = drives_[i].channels();
     }
+    const CommandFrames command = command_frames(layout_, channels, commands, controlwords_.due(commands, now));
+    std::for_each(command.begin(), command.end(), add);
   }
   if (unsent_writes_ == 0 && heartbeat_.due(now)) {
     add(heartbeat_frame(master_node_id_, NmtState::kOperational));
@@ -98,6 +105,7 @@ void DriveGroup::send(std::span<const hal::CanFrame> frames, Instant now) noexce
   unsent_writes_ = std::min(unsent_writes_ + 1, kUnsentWrites);
   told_off_ = false;
   syncs_since_off_ = 0;
+  controlwords_.forget();
 }
 
 void DriveGroup::stop(Instant now) noexcept {

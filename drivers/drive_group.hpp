@@ -12,6 +12,7 @@
 #include "config/robot.hpp"
 #include "drivers/bus_watch.hpp"
 #include "drivers/canopen/heartbeat.hpp"
+#include "drivers/canopen/pdo_layout.hpp"
 #include "drivers/drive_fault.hpp"
 #include "drivers/wheel_drive.hpp"
 #include "hal/api/can_bus.hpp"
@@ -69,11 +70,11 @@ class DriveGroup {
   const GroupFeedback& update(Instant now) noexcept;
   /// What update() returned last, with what fail() has made of it since.
   [[nodiscard]] const GroupFeedback& feedback() const noexcept { return feedback_; }
-  /// Sends at most kFramesPerWrite frames in one CanBus::send: start-up, SYNC, four RPDO1, which the drives act on at
-  /// the next SYNC, and last our heartbeat: a bus that does not take all takes no heartbeat, nor is one sent in the
-  /// write after, so drives that we do not reach stop by themselves. Without `enable` no frame goes out that could move
-  /// a wheel: moving wheels get a quick stop, so a gentle stop is ramped down by the targets first; wheels at rest get
-  /// shutdown.
+  /// Sends at most kFramesPerWrite frames in one CanBus::send: start-up, SYNC, the commands (pdo_layout.hpp), which the
+  /// drives act on at the next SYNC, and last our heartbeat: a bus that does not take all takes no heartbeat, nor is
+  /// one sent in the write after, so drives that we do not reach stop by themselves. Without `enable` no frame goes out
+  /// that could move a wheel: moving wheels get a quick stop, so a gentle stop is ramped down by the targets first;
+  /// wheels at rest get shutdown.
   void write(Instant now, bool enable, const WheelTargets& targets) noexcept;
   /// Quick stop, power off when still: kStopping, then kReady. Idempotent; without effect in kBooting, kReady, kFault
   /// save that enable must have been false before it counts again.
@@ -89,11 +90,13 @@ class DriveGroup {
   /// Answers that are on their way (boot-up, SDO, Operational), those to SYNC not counted: for lock-step time.
   [[nodiscard]] int answers_awaited() const noexcept;
   [[nodiscard]] bool awaiting_answer() const noexcept { return answers_awaited() > 0; }
+  /// One of the four, to look at.
+  [[nodiscard]] const WheelDrive& drive(Wheel wheel) const noexcept { return drives_[static_cast<std::size_t>(wheel)]; }
   /// Frames of a drive with a wrong length; an emergency counts all the same, no other is looked at.
   [[nodiscard]] std::uint64_t malformed() const noexcept;
 
   static constexpr int kUnsentWrites = 5;
-  static constexpr std::size_t kFramesPerWrite = 1 + kWheels + 1 + kWheels;
+  static constexpr std::size_t kFramesPerWrite = 1 + kWheels + 1 + CommandFrames::capacity();
 
  private:
   void collect() noexcept;
@@ -127,6 +130,8 @@ class DriveGroup {
   HeartbeatProducer heartbeat_{rates::kMasterHeartbeat};
   HeartbeatProducer last_word_{rates::kMasterHeartbeat};  // NMT to drives that do not answer, in kFault
   std::uint8_t master_node_id_;
+  PdoLayout layout_;
+  ControlwordSchedule controlwords_;
   GroupFeedback feedback_;
   GroupState state_ = GroupState::kBooting;
   Instant since_{};                       // when state_, or the present step of kEnabling or of a reset, was entered

@@ -1,22 +1,34 @@
 // Start-up of one drive: reset, boot-up, the steps of startup_steps.hpp, and NMT start when all four are ready.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
 #include "config/base/time.hpp"
 #include "config/robot.hpp"
 #include "drivers/canopen/nmt.hpp"
+#include "drivers/canopen/pdo_layout.hpp"
 #include "drivers/canopen/sdo_client.hpp"
 #include "drivers/cia402/mode.hpp"
 #include "drivers/drive_fault.hpp"
+#include "drivers/pdo_search.hpp"
 #include "drivers/startup_steps.hpp"
 
 namespace ivo::drivers {
 
+/// 1018h, as the drive says it; 0 where it does not.
+struct DriveIdentity {
+  std::uint32_t vendor_id = 0;
+  std::uint32_t product_code = 0;
+  std::uint32_t revision = 0;
+  std::uint32_t serial_number = 0;
+};
+
 /// Nothing waits: each cycle on_boot_up, on_heartbeat and on_sdo for what arrived, update, and next_frame, which gives
 /// at most one frame. Without a boot-up message (a node that was up and keeps quiet about its reset) it goes on after
-/// rates::kBootTimeout: the first SDO answer then counts.
+/// rates::kBootTimeout: the first SDO answer then counts. A node that boots again before NMT start is configured anew,
+/// kRestarts times: some boot twice, and one that was just booting when it was reset does.
 class DriveStartup {
  public:
   enum class Phase : std::uint8_t {
@@ -30,8 +42,9 @@ class DriveStartup {
     kOperational,
     kFailed,
   };
+  static constexpr int kRestarts = 2;
 
-  DriveStartup(const DriveParameters& drive, Wheel wheel, std::uint8_t master_node_id) noexcept;
+  DriveStartup(const Robot& robot, Wheel wheel) noexcept;
 
   void open() noexcept;
   /// Once kConfigured: NMT start.
@@ -50,24 +63,48 @@ class DriveStartup {
   /// True while exactly one answer of the node is on its way.
   [[nodiscard]] bool awaiting_answer() const noexcept;
 
+  /// By which COB-IDs the drive is commanded and answers; from kConfigured on. As standard_channels, unless the drive
+  /// could not be mapped so and another of its PDOs does.
+  [[nodiscard]] const PdoChannels& channels() const noexcept { return channels_; }
+  /// From kConfigured on.
+  [[nodiscard]] const DriveIdentity& identity() const noexcept { return identity_; }
+  [[nodiscard]] cia402::Mode mode() const noexcept { return mode_; }
+  /// The step under way, for people to see; "" outside of kConfiguring. Static.
+  [[nodiscard]] const char* step_name() const noexcept;
+
  private:
+  void configure() noexcept;
   void next_step() noexcept;
   void begin_step() noexcept;
+  void transfer(const StartupStep& step) noexcept;
   void judge_answer(Instant now) noexcept;
-  void judge_failure() noexcept;
+  void judge_abort() noexcept;
   void judge_value(Instant now) noexcept;
+  void disable_pdo(std::uint32_t cob_id) noexcept;
+  void keep(std::uint32_t value) noexcept;
+  void refuse(DriveFaultReason reason, std::uint32_t code) noexcept;
+  void follow_search() noexcept;
   void fail(DriveFaultReason reason, const char* step, std::uint32_t code) noexcept;
   [[nodiscard]] const StartupStep& step() const noexcept { return steps_[step_]; }
+  [[nodiscard]] bool left_out(const StartupStep& step) const noexcept;
+  [[nodiscard]] bool forgiven(SdoAbort code) const noexcept;
 
   std::uint8_t node_id_;
   Wheel wheel_;
   StartupSteps steps_;
+  PdoChannels standard_channels_;
   SdoClient sdo_;
   Phase phase_ = Phase::kClosed;
   std::size_t step_ = 0;
+  bool second_try_ = false;  // of the step: its alternative, or the write after the read of a PDO's COB-ID
+  bool searching_ = false;   // a PDO, instead of the steps of the present role
+  PdoSearch search_;
+  DriveFault refused_;  // why a PDO is searched
+  PdoChannels channels_;
+  DriveIdentity identity_;
   cia402::Mode mode_{};
   bool booted_ = false;
-  bool booted_twice_ = false;
+  int restarts_ = 0;
   bool stopped_ = false;
   NmtState heard_ = NmtState::kBootUp;
   Instant deadline_{};  // of kBooting and kConfirming

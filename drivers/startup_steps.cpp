@@ -1,14 +1,17 @@
 #include "drivers/startup_steps.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <numbers>
 
 #include "config/base/contract.hpp"
 #include "config/rates.hpp"
 #include "drivers/canopen/cob_id.hpp"
 #include "drivers/canopen/communication_objects.hpp"
-#include "drivers/canopen/pdo.hpp"
 #include "drivers/cia402/controlword.hpp"
 #include "drivers/cia402/objects.hpp"
+#include "drivers/startup_pdo_steps.hpp"
 
 namespace ivo::drivers {
 namespace {
@@ -54,6 +57,17 @@ void add_stop(StartupSteps& steps) noexcept {
               .value = cia402::controlword::kDisableVoltage});
 }
 
+// For people to see. All but the vendor-ID are optional (CiA 301, 7.5.2.19), and some nodes leave that out as well.
+void add_kept(StartupSteps& steps) noexcept {
+  const auto keep = [&steps](const char* name, ObjectAddress object) {
+    add(steps, {.name = name, .action = StepAction::kKeep, .object = object, .bytes = 4, .may_refuse = true});
+  };
+  keep("vendor-ID 1018h:1, to be shown", object::kVendorId);
+  keep("product code 1018h:2, to be shown", object::kProductCode);
+  keep("revision number 1018h:3, to be shown", object::kRevisionNumber);
+  keep("serial number 1018h:4, to be shown", object::kSerialNumber);
+}
+
 void add_mode_choice(StartupSteps& steps) noexcept {
   add(steps, {.name = "supported drive modes 6502h",
               .action = StepAction::kChooseMode,
@@ -61,111 +75,174 @@ void add_mode_choice(StartupSteps& steps) noexcept {
               .bytes = 4});
 }
 
+// Two nodes that produce SYNC would make all drives act twice a cycle. A drive without 1005h listens to 080h, as it
+// must by default; that it does is seen by its feedback.
+void add_sync(StartupSteps& steps, Duration cycle) noexcept {
+  add(steps, {.name = "COB-ID SYNC 1005h",
+              .object = object::kSyncCobId,
+              .bytes = 4,
+              .value = cob_id::kSync,
+              .may_refuse = true});
+  add(steps, {.name = "COB-ID SYNC 1005h in force: 080h, and not produced by the drive",
+              .action = StepAction::kVerify,
+              .object = object::kSyncCobId,
+              .bytes = 4,
+              .value = cob_id::kSync,
+              .mask = cob_id::kSyncCompared,
+              .may_be_missing = true});
+  add(steps, {.name = "communication cycle period 1006h",
+              .object = object::kCyclePeriod,
+              .bytes = 4,
+              .value = microseconds(cycle),
+              .may_be_missing = true});
+}
+
+// A drive whose clock has a coarse tick may round our time up, by less than two of our heartbeats.
 void add_supervision(StartupSteps& steps, std::uint8_t master_node_id) noexcept {
+  const std::uint32_t master = std::uint32_t{master_node_id} << 16;
   add(steps, {.name = "consumer heartbeat time 1016h:1",
               .object = object::kConsumerHeartbeat,
               .bytes = 4,
-              .value = std::uint32_t{master_node_id} << 16 | milliseconds(rates::kMasterHeartbeatTimeout)});
+              .value = master | milliseconds(rates::kMasterHeartbeatTimeout)});
+  add(steps, {.name = "consumer heartbeat time 1016h:1 in force: our node-id and at most 240 ms",
+              .action = StepAction::kVerifyRange,
+              .object = object::kConsumerHeartbeat,
+              .bytes = 4,
+              .value = master | milliseconds(rates::kMasterHeartbeat),
+              .highest = master | milliseconds(rates::kMasterHeartbeatTimeout + 9 * rates::kMasterHeartbeat / 5)});
   add(steps, {.name = "producer heartbeat time 1017h",
               .object = object::kProducerHeartbeat,
               .bytes = 2,
               .value = milliseconds(rates::kDriveHeartbeat)});
-  add(steps, {.name = "communication cycle period 1006h",
-              .object = object::kCyclePeriod,
-              .bytes = 4,
-              .value = microseconds(rates::kCycle)});
-  add(steps, {.name = "quick stop option code 605Ah",
-              .object = object::kQuickStopOption,
-              .bytes = 2,
-              .value = cia402::kQuickStopRampThenOff,
-              .may_refuse = true});
-  add(steps, {.name = "quick stop option code 605Ah in force: 1, 2, 5 or 6, a ramp",
-              .action = StepAction::kVerifyOneOf,
-              .object = object::kQuickStopOption,
-              .bytes = 2,
-              .value = cia402::kQuickStopsWithRamp});
-  add(steps, {.name = "abort connection option code 6007h",
-              .object = object::kAbortConnectionOption,
-              .bytes = 2,
-              .value = cia402::kQuickStopOnLostMaster,
-              .may_refuse = true});
-  add(steps, {.name = "abort connection option code 6007h in force: 1, 2 or 3, or the drive would go on moving without "
-                      "its master",
-              .action = StepAction::kVerifyOneOf,
-              .object = object::kAbortConnectionOption,
-              .bytes = 2,
-              .value = cia402::kStopsOnLostMaster});
 }
 
-struct PdoNames {
-  const char* disable = "";
-  const char* clear = "";
-  const char* first = "";
-  const char* second = "";
-  const char* count = "";
-  const char* check = "";
-  const char* type = "";
-  const char* enable = "";
+struct OptionCode {
+  const char* name = "";
+  const char* in_force = "";
+  ObjectAddress object;
+  std::uint32_t wished = 0;
+  std::uint32_t accepted = 0;  // bit n for value n
+  bool optional = false;       // without it the drive's own, unchangeable reaction is one of those accepted
 };
 
-struct PdoSteps {
-  PdoNames names;
-  ObjectAddress cob_id_object;
-  ObjectAddress type_object;
-  ObjectAddress count_object;
-  std::uint32_t cob_id = 0;
-  std::uint32_t first = 0;
-  std::uint32_t second = 0;
-};
-
-void add_pdo(StartupSteps& steps, const PdoSteps& pdo) noexcept {
-  add(steps,
-      {.name = pdo.names.disable, .object = pdo.cob_id_object, .bytes = 4, .value = pdo.cob_id | cob_id::kPdoInvalid});
-  add(steps, {.name = pdo.names.clear, .object = pdo.count_object, .bytes = 1, .value = 0});
-  add(steps,
-      {.name = pdo.names.first, .object = object::mapping_entry(pdo.count_object, 1), .bytes = 4, .value = pdo.first});
-  add(steps, {.name = pdo.names.second,
-              .object = object::mapping_entry(pdo.count_object, 2),
-              .bytes = 4,
-              .value = pdo.second});
-  add(steps, {.name = pdo.names.count, .object = pdo.count_object, .bytes = 1, .value = 2});
-  add(steps,
-      {.name = pdo.names.check, .action = StepAction::kVerify, .object = pdo.count_object, .bytes = 1, .value = 2});
-  add(steps, {.name = pdo.names.type, .object = pdo.type_object, .bytes = 1, .value = kEverySync});
-  add(steps, {.name = pdo.names.enable, .object = pdo.cob_id_object, .bytes = 4, .value = pdo.cob_id});
+void add_option(StartupSteps& steps, const OptionCode& option) noexcept {
+  add(steps, {.name = option.name, .object = option.object, .bytes = 2, .value = option.wished, .may_refuse = true});
+  add(steps, {.name = option.in_force,
+              .action = StepAction::kVerifyOneOf,
+              .object = option.object,
+              .bytes = 2,
+              .value = option.accepted,
+              .may_be_missing = option.optional});
 }
 
-constexpr PdoNames kRpdoNames{"disable RPDO1 1400h:1",           "clear RPDO1 mapping 1600h:0",
-                              "map controlword 1600h:1",         "map target velocity 1600h:2",
-                              "count RPDO1 mapping 1600h:0",     "read back RPDO1 mapping 1600h:0",
-                              "RPDO1 transmission type 1400h:2", "enable RPDO1 1400h:1"};
-constexpr PdoNames kTpdoNames{"disable TPDO1 1800h:1",           "clear TPDO1 mapping 1A00h:0",
-                              "map statusword 1A00h:1",          "map position 1A00h:2",
-                              "count TPDO1 mapping 1A00h:0",     "read back TPDO1 mapping 1A00h:0",
-                              "TPDO1 transmission type 1800h:2", "enable TPDO1 1800h:1"};
+// What must be there: a quick stop that is a ramp, and a stop when the master is lost. Of the rest a drive may do what
+// ends with its power off: shutdown and disable operation are said to wheels at rest only, halt never, and a fault may
+// need the power off at once (605Eh 0), which leaves the other three drives and their ramps. What a manufacturer
+// defined (negative values) may be anything and is refused.
+void add_option_codes(StartupSteps& steps) noexcept {
+  add_option(steps, {.name = "quick stop option code 605Ah",
+                     .in_force = "quick stop option code 605Ah in force: 1, 2, 5 or 6, a ramp",
+                     .object = object::kQuickStopOption,
+                     .wished = cia402::kQuickStopRampThenOff,
+                     .accepted = cia402::kQuickStopsWithRamp});
+  add_option(steps, {.name = "shutdown option code 605Bh",
+                     .in_force = "shutdown option code 605Bh in force: 0 or 1",
+                     .object = object::kShutdownOption,
+                     .wished = cia402::kRampThenOff,
+                     .accepted = cia402::kShutdowns,
+                     .optional = true});
+  add_option(steps, {.name = "disable operation option code 605Ch",
+                     .in_force = "disable operation option code 605Ch in force: 0 or 1",
+                     .object = object::kDisableOperationOption,
+                     .wished = cia402::kRampThenOff,
+                     .accepted = cia402::kShutdowns,
+                     .optional = true});
+  add_option(steps, {.name = "halt option code 605Dh",
+                     .in_force = "halt option code 605Dh in force: 1 to 4",
+                     .object = object::kHaltOption,
+                     .wished = cia402::kHaltRamp,
+                     .accepted = cia402::kHalts,
+                     .optional = true});
+  add_option(steps, {.name = "fault reaction option code 605Eh",
+                     .in_force = "fault reaction option code 605Eh in force: 0 to 4, power off at once or after a ramp",
+                     .object = object::kFaultReactionOption,
+                     .wished = cia402::kQuickStopRampOnFault,
+                     .accepted = cia402::kFaultReactions,
+                     .optional = true});
+  add_option(steps, {.name = "abort connection option code 6007h",
+                     .in_force = "abort connection option code 6007h in force: 1, 2 or 3, or the drive would go on "
+                                 "moving without its master",
+                     .object = object::kAbortConnectionOption,
+                     .wished = cia402::kQuickStopOnLostMaster,
+                     .accepted = cia402::kStopsOnLostMaster});
+}
 
-}  // namespace
+/// `mps2` at a wheel's rim, in units of 6083h to 6085h; at least 1, or the wheel would never stop.
+std::uint32_t ramp_units(const Robot& robot, const DriveParameters& drive, double mps2) noexcept {
+  constexpr double kHighest = 0x7FFF'FFFF;  // some drives hold it as signed
+  const double units = mps2 / robot.base.wheel_radius_m * drive.gear_ratio * std::abs(drive.accel_per_radps2);
+  return std::isfinite(units) ? static_cast<std::uint32_t>(std::clamp(std::round(units), 1.0, kHighest)) : 1;
+}
 
-StartupSteps startup_steps(const DriveParameters& drive, std::uint8_t master_node_id) noexcept {
-  StartupSteps steps;
-  add_identity(steps, drive);
-  add_stop(steps);
-  add_mode_choice(steps);
-  add_supervision(steps, master_node_id);
-  add_pdo(steps, {.names = kRpdoNames,
-                  .cob_id_object = object::kRpdo1CobId,
-                  .type_object = object::kRpdo1Type,
-                  .count_object = object::kRpdo1Count,
-                  .cob_id = cob_id::rpdo1(drive.node_id),
-                  .first = object::mapped(object::kControlword, 16),
-                  .second = object::mapped(object::kTargetVelocity, 32)});
-  add_pdo(steps, {.names = kTpdoNames,
-                  .cob_id_object = object::kTpdo1CobId,
-                  .type_object = object::kTpdo1Type,
-                  .count_object = object::kTpdo1Count,
-                  .cob_id = cob_id::tpdo1(drive.node_id) | cob_id::kPdoNoRemote,
-                  .first = object::mapped(object::kStatusword, 16),
-                  .second = object::mapped(object::kPositionActual, 32)});
+/// The fastest that the loop's own ramps change a rim's speed: along a diagonal a mecanum wheel's rim does sqrt(2) of
+/// what the base does, and a turn comes on top at its lever arm (config/robot.hpp; kinematics).
+double steepest_command_mps2(const Robot& robot) noexcept {
+  const MotionLimits& limits = robot.limits;
+  const double lever_m = robot.base.half_length_m + robot.base.half_width_m;
+  return std::numbers::sqrt2 * std::max(limits.max_accel_mps2, limits.stop_decel_mps2) +
+         lever_m * limits.max_turn_accel_radps2;
+}
+
+// Profile ramps are twice as steep as anything the loop asks for: a wheel then follows the loop's ramp and not its own.
+// A drive in cyclic velocity does without; in profile velocity it must grant at least what the loop asks for. The quick
+// stop must be as steep as was said, within a tenth that its units may round away.
+void add_ramps(StartupSteps& steps, const Robot& robot, const DriveParameters& drive) noexcept {
+  const double steepest = steepest_command_mps2(robot);
+  const std::uint32_t wished = ramp_units(robot, drive, 2.0 * steepest);
+  const std::uint32_t least = ramp_units(robot, drive, steepest);
+  const std::uint32_t quick_stop = ramp_units(robot, drive, robot.limits.quick_stop_mps2);
+  const auto write = [&steps](const char* name, ObjectAddress object, std::uint32_t value) {
+    add(steps, {.name = name, .object = object, .bytes = 4, .value = value, .may_refuse = true});
+  };
+  const auto judge = [&steps](const char* name, ObjectAddress object, std::uint32_t lowest, StepMode mode) {
+    add(steps, {.name = name,
+                .action = StepAction::kVerifyRange,
+                .object = object,
+                .bytes = 4,
+                .value = lowest,
+                .may_be_missing = true,
+                .mode = mode});
+  };
+  write("profile acceleration 6083h", object::kProfileAcceleration, wished);
+  judge("profile acceleration 6083h in force: at least what the loop asks for", object::kProfileAcceleration, least,
+        StepMode::kProfileVelocity);
+  write("profile deceleration 6084h", object::kProfileDeceleration, wished);
+  judge("profile deceleration 6084h in force: at least what the loop asks for", object::kProfileDeceleration, least,
+        StepMode::kProfileVelocity);
+  write("quick stop deceleration 6085h", object::kQuickStopDeceleration, quick_stop);
+  judge("quick stop deceleration 6085h in force: at least nine tenths of limits.quick_stop_mps2",
+        object::kQuickStopDeceleration, quick_stop - quick_stop / 10, StepMode::kAny);
+}
+
+// A drive that does not take the period interpolates by its own: its wheel lags by that, and nothing worse.
+void add_interpolation(StartupSteps& steps, Duration cycle) noexcept {
+  constexpr std::uint32_t kMilliseconds = 0xFD;  // 10^-3 s
+  add(steps, {.name = "interpolation time period 60C2h:1",
+              .object = object::kInterpolationPeriod,
+              .bytes = 1,
+              .value = milliseconds(cycle),
+              .may_refuse = true,
+              .mode = StepMode::kCyclicSynchronousVelocity});
+  add(steps, {.name = "interpolation time index 60C2h:2",
+              .object = object::kInterpolationExponent,
+              .bytes = 1,
+              .value = kMilliseconds,
+              .may_refuse = true,
+              .mode = StepMode::kCyclicSynchronousVelocity});
+}
+
+// Some drives set their target when the mode changes: what is in force then is what the first enabling would follow.
+void add_mode(StartupSteps& steps) noexcept {
   add(steps, {.name = "mode of operation 6060h",
               .action = StepAction::kWriteMode,
               .object = object::kModeOfOperation,
@@ -174,6 +251,30 @@ StartupSteps startup_steps(const DriveParameters& drive, std::uint8_t master_nod
               .action = StepAction::kVerifyMode,
               .object = object::kModeDisplay,
               .bytes = 1});
+  add(steps, {.name = "target velocity 60FFh, in the mode", .object = object::kTargetVelocity, .bytes = 4, .value = 0});
+  add(steps, {.name = "target velocity 60FFh in force: 0",
+              .action = StepAction::kVerify,
+              .object = object::kTargetVelocity,
+              .bytes = 4,
+              .value = 0});
+}
+
+}  // namespace
+
+StartupSteps startup_steps(const Robot& robot, Wheel wheel) noexcept {
+  const DriveParameters& drive = robot.drives[static_cast<std::size_t>(wheel)];
+  StartupSteps steps;
+  add_identity(steps, drive);
+  add_stop(steps);
+  add_kept(steps);
+  add_mode_choice(steps);
+  add_sync(steps, robot.cycle);
+  add_supervision(steps, robot.master_node_id);
+  add_option_codes(steps);
+  add_ramps(steps, robot, drive);
+  add_interpolation(steps, robot.cycle);
+  add_pdo_steps(steps, robot, wheel);
+  add_mode(steps);
   return steps;
 }
 

@@ -24,7 +24,7 @@ bool keep(std::optional<T>& slot, const std::optional<T>& parsed) noexcept {
 WheelDrive::WheelDrive(const Robot& robot, Wheel wheel) noexcept
     : parameters_(robot.drives[static_cast<std::size_t>(wheel)]),
       wheel_(wheel),
-      startup_(parameters_, wheel, robot.master_node_id),
+      startup_(robot, wheel),
       encoder_(parameters_, robot.base.wheel_radius_m) {}
 
 void WheelDrive::open() noexcept {
@@ -59,8 +59,8 @@ void WheelDrive::latch(DriveFaultReason reason, std::uint32_t code) noexcept {
 void WheelDrive::on_frame(const hal::ReceivedFrame& received) noexcept {
   const hal::CanFrame& frame = received.frame;
   const std::uint8_t node = node_id();
-  if (frame.id == cob_id::tpdo1(node)) {
-    const bool whole = keep(heard_.feedback, parse_tpdo1(frame));
+  if (frame.id == channels().feedback_id) {
+    const bool whole = keep(heard_.feedback, parse_status(frame));
     malformed_ += whole ? 0 : 1;
     if (whole) {
       tally_.heard();
@@ -72,6 +72,9 @@ void WheelDrive::on_frame(const hal::ReceivedFrame& received) noexcept {
   } else if (frame.id == cob_id::emcy(node)) {
     const std::optional<Emergency> emergency = parse_emergency(frame);
     malformed_ += emergency.has_value() ? 0 : 1;
+    if (emergency.has_value()) {
+      emergencies_.add(*emergency, received.at);
+    }
     const bool errors_gone = emergency.has_value() && emergency->code == 0;
     if (!errors_gone && !heard_.emergency.has_value()) {
       heard_.emergency = emergency.value_or(Emergency{});
@@ -148,12 +151,12 @@ bool WheelDrive::in_fault() const noexcept {
   return state == PowerState::kFault || state == PowerState::kFaultReactionActive;
 }
 
-hal::CanFrame WheelDrive::command_frame(std::uint16_t controlword, double radps) const noexcept {
+DriveCommand WheelDrive::command(std::uint16_t controlword, double radps) const noexcept {
   constexpr double kLowest = std::numeric_limits<std::int32_t>::min();
   constexpr double kHighest = std::numeric_limits<std::int32_t>::max();
   const double units = radps * parameters_.sign * parameters_.gear_ratio * parameters_.velocity_per_radps;
   const double target = std::isnan(units) ? 0.0 : std::clamp(std::round(units), kLowest, kHighest);
-  return rpdo1_frame(node_id(), {controlword, static_cast<std::int32_t>(target)});
+  return {controlword, static_cast<std::int32_t>(target)};
 }
 
 }  // namespace ivo::drivers

@@ -8,8 +8,10 @@
 #include "config/rates.hpp"
 #include "config/robot.hpp"
 #include "drivers/canopen/emcy.hpp"
+#include "drivers/canopen/emcy_history.hpp"
 #include "drivers/canopen/heartbeat.hpp"
 #include "drivers/canopen/pdo.hpp"
+#include "drivers/canopen/pdo_layout.hpp"
 #include "drivers/cia402/statusword.hpp"
 #include "drivers/drive_fault.hpp"
 #include "drivers/drive_startup.hpp"
@@ -19,7 +21,7 @@
 
 namespace ivo::drivers {
 
-/// Each cycle, in this order: on_frame for what arrived, update, then next_frame and command_frame for what is sent.
+/// Each cycle, in this order: on_frame for what arrived, update, then next_frame and command for what is sent.
 class WheelDrive {
  public:
   using Phase = DriveStartup::Phase;
@@ -42,11 +44,16 @@ class WheelDrive {
   void update(Instant now) noexcept;
   /// A frame of start-up to send, at most one a cycle.
   [[nodiscard]] std::optional<hal::CanFrame> next_frame(Instant now) noexcept { return startup_.next_frame(now); }
-  /// RPDO1 with `radps` at the wheel in the drive's units, rounded, held within its 32 bits; 0 when not a number.
-  [[nodiscard]] hal::CanFrame command_frame(std::uint16_t controlword, double radps) const noexcept;
+  /// `radps` at the wheel in the drive's units, rounded, held within its 32 bits; 0 when not a number.
+  [[nodiscard]] DriveCommand command(std::uint16_t controlword, double radps) const noexcept;
 
   [[nodiscard]] std::uint8_t node_id() const noexcept { return parameters_.node_id; }
   [[nodiscard]] Phase phase() const noexcept { return startup_.phase(); }
+  /// The COB-IDs of its PDOs, once it is configured.
+  [[nodiscard]] const PdoChannels& channels() const noexcept { return startup_.channels(); }
+  [[nodiscard]] const DriveStartup& startup() const noexcept { return startup_; }
+  /// Since construction.
+  [[nodiscard]] const EmcyHistory& emergencies() const noexcept { return emergencies_; }
   [[nodiscard]] const DriveFault& fault() const noexcept { return fault_; }
   [[nodiscard]] bool awaiting_answer() const noexcept { return startup_.awaiting_answer(); }
   /// Its TPDO1 came, or was first asked for, within rates::kFeedbackTimeout.
@@ -91,6 +98,7 @@ class WheelDrive {
   std::optional<Instant> sync_;           // the last one
   std::optional<Instant> last_feedback_;  // or the first SYNC
   DriveFault fault_;
+  EmcyHistory emergencies_;
   std::uint64_t malformed_ = 0;
 };
 

@@ -31,17 +31,4 @@ BusIds bus_ids(const Robot& robot) noexcept {
   return ids;
 }
 
-bool sent_by_master(const Robot& robot, std::uint16_t id) noexcept {
-  if (id == cob_id::kNmt || id == cob_id::kSync || id == cob_id::heartbeat(robot.master_node_id)) {
-    return true;
-  }
-  return std::any_of(robot.drives.begin(), robot.drives.end(), [id](const DriveParameters& drive) {
-    bool sent = id == cob_id::sdo_request(drive.node_id);
-    for (std::uint8_t number = 1; number <= cob_id::kPdos; ++number) {
-      sent = sent || id == cob_id::rpdo(number, drive.node_id);
-    }
-    return sent;
-  });
-}
-
 }  // namespace ivo::drivers

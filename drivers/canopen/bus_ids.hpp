@@ -18,7 +18,4 @@ using BusIds = StaticVector<std::uint16_t, kBusIds>;
 /// drive that cannot be mapped anew may use any of them. LSS and SDO of other nodes are not.
 [[nodiscard]] BusIds bus_ids(const Robot& robot) noexcept;
 
-/// True for the ids of bus_ids() that only a master sends.
-[[nodiscard]] bool sent_by_master(const Robot& robot, std::uint16_t id) noexcept;
-
 }  // namespace ivo::drivers

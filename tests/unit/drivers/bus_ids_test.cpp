@@ -36,16 +36,6 @@ TEST(BusIds, HoldEachIdOnceThoughADriveHadTheMastersNodeId) {
   EXPECT_EQ(bus_ids(robot).size(), kBusIds - 1);
 }
 
-TEST(BusIds, TellWhatOnlyAMasterSends) {
-  const Robot robot = test_robot();
-  for (const std::uint16_t id : bus_ids(robot)) {
-    const int function = id & 0x780;
-    const bool command = function == 0x200 || function == 0x300 || function == 0x400 || function == 0x500;
-    const bool master = id == 0x000 || id == 0x080 || id == 0x77F || command || function == 0x600;
-    EXPECT_EQ(sent_by_master(robot, id), master) << std::hex << id;
-  }
-}
-
 TEST(BusIds, HoldEveryFrameOfARunThatMoves) {
   Rig rig;
   const BusIds ids = bus_ids(rig.robot);

@@ -102,18 +102,18 @@ TEST(Emergency, IsNeitherSyncNorShort) {
 }
 
 TEST(Pdo, PacksControlwordAndTargetLittleEndian) {
-  EXPECT_EQ(rpdo1_frame(1, {0x000F, -2}),
+  EXPECT_EQ(command_frame(0x201, {0x000F, -2}),
             (hal::CanFrame{.id = 0x201, .size = 6, .data = {0x0F, 0x00, 0xFE, 0xFF, 0xFF, 0xFF}}));
 }
 
 TEST(Pdo, ReadsStatuswordAndPositionOfExactlySixBytes) {
   hal::CanFrame frame{.id = 0x181, .size = 6, .data = {0x37, 0x12, 0xFF, 0xFF, 0xFF, 0xFF}};
-  const auto status = parse_tpdo1(frame);
+  const auto status = parse_status(frame);
   ASSERT_TRUE(status.has_value());
   EXPECT_EQ(status->statusword, 0x1237);
   EXPECT_EQ(status->position, -1);
   for (frame.size = 0; frame.size <= 8; ++frame.size) {
-    EXPECT_EQ(parse_tpdo1(frame).has_value(), frame.size == 6);
+    EXPECT_EQ(parse_status(frame).has_value(), frame.size == 6);
   }
 }
 

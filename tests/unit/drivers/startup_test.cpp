@@ -54,30 +54,25 @@ TEST(StartUp, WritesThePdoMappingInTheOrderOfTheStandard) {
   const std::vector<SdoMessage> all = requests(rig);
   const auto first =
       std::find_if(all.begin(), all.end(), [](const SdoMessage& m) { return m.address == object::kRpdo1CobId; });
-  ASSERT_GE(std::distance(first, all.end()), 16);
-  const std::array<SdoMessage, 16> expected{{
-      {0x23, {0x1400, 1}, 0x80000201},
-      {0x2F, {0x1600, 0}, 0},
-      {0x23, {0x1600, 1}, 0x60400010},
-      {0x23, {0x1600, 2}, 0x60FF0020},
-      {0x2F, {0x1600, 0}, 2},
-      {0x40, {0x1600, 0}, 0},
-      {0x2F, {0x1400, 2}, 1},
-      {0x23, {0x1400, 1}, 0x00000201},
-      {0x23, {0x1800, 1}, 0xC0000181},
-      {0x2F, {0x1A00, 0}, 0},
-      {0x23, {0x1A00, 1}, 0x60410010},
-      {0x23, {0x1A00, 2}, 0x60640020},
-      {0x2F, {0x1A00, 0}, 2},
-      {0x40, {0x1A00, 0}, 0},
-      {0x2F, {0x1800, 2}, 1},
-      {0x23, {0x1800, 1}, 0x40000181},
-  }};
+  const std::vector<SdoMessage> expected{
+      {0x40, {0x1400, 1}, 0},          {0x23, {0x1400, 1}, 0x80000201}, {0x2F, {0x1600, 0}, 0},
+      {0x23, {0x1600, 1}, 0x60400010}, {0x23, {0x1600, 2}, 0x60FF0020}, {0x2F, {0x1600, 0}, 2},
+      {0x40, {0x1600, 1}, 0},          {0x40, {0x1600, 2}, 0},          {0x40, {0x1600, 0}, 0},
+      {0x2F, {0x1400, 2}, 1},          {0x40, {0x1400, 2}, 0},          {0x2B, {0x1400, 5}, 150},
+      {0x23, {0x1400, 1}, 0x00000201}, {0x40, {0x1400, 1}, 0},          {0x40, {0x1800, 1}, 0},
+      {0x23, {0x1800, 1}, 0xC0000181}, {0x2F, {0x1A00, 0}, 0},          {0x23, {0x1A00, 1}, 0x60410010},
+      {0x23, {0x1A00, 2}, 0x60640020}, {0x2F, {0x1A00, 0}, 2},          {0x40, {0x1A00, 1}, 0},
+      {0x40, {0x1A00, 2}, 0},          {0x40, {0x1A00, 0}, 0},          {0x2F, {0x1800, 2}, 1},
+      {0x40, {0x1800, 2}, 0},          {0x23, {0x1800, 1}, 0x40000181}, {0x40, {0x1800, 1}, 0},
+  };
+  ASSERT_GE(std::distance(first, all.end()), static_cast<std::ptrdiff_t>(expected.size()));
   for (std::size_t i = 0; i < expected.size(); ++i) {
     const SdoMessage& sent = first[static_cast<std::ptrdiff_t>(i)];
     EXPECT_EQ(sent.command, expected[i].command) << i;
     EXPECT_EQ(sent.address, expected[i].address) << i;
-    EXPECT_EQ(sent.data, expected[i].data) << i;
+    // A drive may ship with its remote bit set or not; that is left as it is.
+    const std::uint32_t looked_at = expected[i].data >> 31 != 0 ? cob_id::kPdoCompared : 0xFFFFFFFF;
+    EXPECT_EQ(sent.data & looked_at, expected[i].data & looked_at) << i;
   }
 }
 
@@ -212,8 +207,17 @@ TEST(StartUp, TellsTheNameOfAnSdoAbort) {
 }
 
 TEST(StartUp, EveryStepThatMayNotFailIsToldByItsName) {
-  const StartupSteps steps = startup_steps(test_robot().drives[2], 127);
+  const StartupSteps steps = startup_steps(test_robot(), Wheel::kRearLeft);
   for (const StartupStep& step : steps) {
+    if (step.role != PdoRole::kNone || step.action == StepAction::kSilencePdo || step.action == StepAction::kKeep) {
+      continue;  // startup_pdo_test.cpp; what is only shown may be missing
+    }
+    const bool judged = std::any_of(steps.begin(), steps.end(), [&](const StartupStep& other) {
+      return other.object == step.object && !other.may_refuse && other.mode == StepMode::kAny;
+    });
+    if (!judged) {
+      continue;  // in this mode all of it may be refused
+    }
     SimScript script;
     script.refusal = {step.object, SdoAbort::kHardware};
     Rig rig(third_drive(script));
@@ -307,10 +311,21 @@ TEST(StartUp, ForgivesTheBootUpMessageThatCameBeforeTheReset) {
   EXPECT_TRUE(rig.run_until(GroupState::kReady)) << describe(rig.feedback.fault);
 }
 
-TEST(StartUp, ADriveThatRebootsHalfwayFailsIt) {
+TEST(StartUp, ConfiguresADriveThatRebootsHalfwayAnew) {
   SimScript script;
   script.reboot_at = Instant(std::chrono::milliseconds(30));
   Rig rig(third_drive(script));
+  EXPECT_TRUE(rig.run_until(GroupState::kReady)) << describe(rig.feedback.fault);
+  EXPECT_TRUE(rig.drive_at(2.0));
+}
+
+TEST(StartUp, ADriveThatRebootsAgainAndAgainFailsIt) {
+  Rig rig;
+  for (int i = 0; i < 200 && rig.cycle().state == GroupState::kBooting; ++i) {
+    if (i % 10 == 5) {
+      rig.drives.drive(Wheel::kRearLeft).script().reboot_at = rig.clock.now();
+    }
+  }
   EXPECT_NE(failure_of(rig).find("drive 3 (rear left) failed at \""), std::string::npos);
   EXPECT_EQ(rig.feedback.fault.reason, DriveFaultReason::kRebooted);
 }
