@@ -309,8 +309,8 @@ class BareNode {
 
   void receive(const hal::CanFrame& frame, std::uint16_t mapping, Instant now) {
     std::size_t at = 0;
-    for (std::uint8_t n = 1; n <= get(mapping, 0); ++n) {
-      const std::uint32_t entry = get(mapping, n);
+    for (std::uint32_t n = 1; n <= get(mapping, 0); ++n) {
+      const std::uint32_t entry = get(mapping, static_cast<std::uint8_t>(n));
       const std::size_t bytes = (entry & 0xFF) / 8;
       if (at + bytes > frame.size) {
         return say(now, emergency_frame(node_id_, {0x8210, 0x11, {}}));
@@ -332,8 +332,8 @@ class BareNode {
     power.at_rest(false);  // it turns no wheel: every quick stop is over at once
     set(0x6041, 0, 2, std::uint32_t{cia402::statusword_bits(power.state())} | 0x0210);
     hal::CanFrame frame{.id = id, .size = 0, .data = {}};
-    for (std::uint8_t n = 1; n <= get(mapping, 0); ++n) {
-      const std::uint32_t entry = get(mapping, n);
+    for (std::uint32_t n = 1; n <= get(mapping, 0); ++n) {
+      const std::uint32_t entry = get(mapping, static_cast<std::uint8_t>(n));
       const std::uint32_t value = get(static_cast<std::uint16_t>(entry >> 16), static_cast<std::uint8_t>(entry >> 8));
       for (std::uint32_t i = 0; i < (entry & 0xFF) / 8; ++i) {
         frame.data[frame.size++] = static_cast<std::uint8_t>(value >> (8 * i));
