@@ -34,7 +34,7 @@ class SimulatedWheels {
     std::uniform_real_distribution<double> share(0.0, 1.0);
     for (Drive& drive : drives) {
       drive.dead_time_s = 0.002 + 0.004 * share(random_);
-      drive.lag_s = 0.005 + 0.035 * share(random_);
+      drive.lag_s = 0.005 + 0.055 * share(random_);
       drive.ramp_mps2 = robot_.limits.max_accel_mps2 * (1.0 + 3.0 * share(random_));
       drive.radius_error = 0.02 * (2.0 * share(random_) - 1.0);
       drive.noise_mps = 0.02 * share(random_);
