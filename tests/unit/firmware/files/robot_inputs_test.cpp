@@ -72,8 +72,7 @@ TEST(RobotInputs, RefusesALevelThatIsNotSaid) {
 TEST(RobotInputs, RefusesLinesThatCannotBe) {
   EXPECT_EQ(complaint("line = 22", "line = -1"),
             "r.toml:4: inputs.bumpers[0].line: -1 is out of range; expected 0 to 1023");
-  EXPECT_EQ(complaint("line = 22", "pin = 22"),
-            "r.toml:4: inputs.bumpers[0].pin: unknown; did you mean line?");
+  EXPECT_EQ(complaint("line = 22", "pin = 22"), "r.toml:4: inputs.bumpers[0].pin: unknown; did you mean line?");
   EXPECT_EQ(complaint("chip = 'gpiochip0'\n", ""), "r.toml:1: inputs.chip: missing; it must be given");
 }
 
