@@ -31,10 +31,13 @@ inline constexpr Duration kStateChangeTimeout = 1s;      // one CiA 402 transiti
 inline constexpr Duration kUnaskedPowerTimeout = 100ms;  // a drive may be powered unasked for so long
 inline constexpr Duration kStandstillTimeout = 3s;       // from a stop to wheels at rest
 inline constexpr Duration kStandstillDwell = 50ms;       // a wheel rests when it has not moved for so long
+inline constexpr Duration kInputsRead = 10ms;            // emergency stop and bumpers are read so often, besides edges
+inline constexpr Duration kInputsAge = 50ms;             // a reading of them older than that counts as pressed
 
 inline constexpr int kPlannerUnitsPerCycle = 100'000;  // planner work (planner/search/search.hpp): half a millisecond
 
 static_assert(kMasterHeartbeatTimeout >= 3 * kMasterHeartbeat, "two lost heartbeats are not a dead master");
+static_assert(kInputsAge >= 3 * kInputsRead, "two late readings are no emergency stop");
 static_assert(kDriveHeartbeatTimeout >= 3 * kDriveHeartbeat, "two lost heartbeats are not a dead drive");
 
 }  // namespace ivo::rates

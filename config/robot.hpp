@@ -3,7 +3,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "config/base/time.hpp"
@@ -26,6 +28,7 @@ struct BaseParameters {
   double half_length_m = 0.20;  ///< lx: centre to axle, along x
   double half_width_m = 0.20;   ///< ly: centre to wheel, along y
   double max_wheel_radps = 15.0;
+  double turn_scale = 1.0;  ///< lever arm of a turn over its geometric one (lx + ly, or R): what a calibration finds
   friend bool operator==(const BaseParameters&, const BaseParameters&) = default;
 };
 
@@ -53,6 +56,23 @@ struct DriveParameters {
   friend bool operator==(const DriveParameters&, const DriveParameters&) = default;
 };
 
+/// One input line of a GPIO chip.
+struct InputLine {
+  unsigned line = 0;        ///< offset on the chip
+  bool active_low = false;  ///< true: pressed when the level is low, as with a normally closed contact to the supply
+  friend bool operator==(const InputLine&, const InputLine&) = default;
+};
+
+inline constexpr std::size_t kBumpers = 7;  ///< and an emergency stop: eight inputs, a byte
+
+/// Emergency stop and bumpers. An input that is not fitted is never pressed.
+struct InputParameters {
+  std::string chip{};  ///< "gpiochip0", a path or a label; empty: there are no inputs
+  std::optional<InputLine> emergency_stop{};
+  std::array<std::optional<InputLine>, kBumpers> bumpers{};
+  friend bool operator==(const InputParameters&, const InputParameters&) = default;
+};
+
 /// How commands reach the drives; feedback is one TPDO a drive in both.
 enum class PdoLayout : std::uint8_t {
   kOwn,     ///< one RPDO a drive: {6040h, 60FFh}
@@ -73,6 +93,7 @@ struct Robot {
   /// The right-hand wheels are mounted the other way round.
   std::array<DriveParameters, kWheels> drives = {
       {{.node_id = 1, .sign = 1}, {.node_id = 2, .sign = -1}, {.node_id = 3, .sign = 1}, {.node_id = 4, .sign = -1}}};
+  InputParameters inputs{};
   friend bool operator==(const Robot&, const Robot&) = default;
 };
 

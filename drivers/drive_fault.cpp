@@ -32,6 +32,7 @@ bool needs_start_up(DriveFaultReason reason) noexcept {
     case DriveFaultReason::kFaultResetFailed:
     case DriveFaultReason::kVoltageMissing:
     case DriveFaultReason::kEncoderStuck:
+    case DriveFaultReason::kWheelNotFollowing:
     case DriveFaultReason::kResetLimit:
     case DriveFaultReason::kWheelSlip:
     case DriveFaultReason::kStopInput:

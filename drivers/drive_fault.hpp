@@ -31,6 +31,7 @@ enum class DriveFaultReason : std::uint8_t {
   kDuplicateNodeId,       ///< two devices answer to one node-id
   kVoltageMissing,        ///< does not leave Switch On Disabled: STO or emergency stop open; code: statusword
   kEncoderStuck,          ///< the wheel was told to turn and its position stays
+  kWheelNotFollowing,     ///< the wheel turns otherwise than told: blocked, driven, or its belt slips; code: mm/s
   kResetLimit,            ///< faults come back after each reset; code: resets that were tried
   // Of no drive.
   kCommandsNotSent,  ///< the bus did not take kUnsentWrites writes in a row whole
@@ -40,8 +41,10 @@ enum class DriveFaultReason : std::uint8_t {
   kForeignMaster,    ///< somebody else sends what only a master sends; code: COB-ID
   kCycleLate,        ///< our own cycle; code: periods skipped
   kWheelSlip,        ///< the wheels turn as no body can move; code: residual in mm/s
-  kStopInput,        ///< emergency stop or bumper; code: number of the input
+  kStopInput,        ///< emergency stop or bumper; code: number of the input, or kStopInputsSilent
 };
+/// Code of kStopInput: the inputs were not read for too long, which counts as pressed.
+inline constexpr std::uint32_t kStopInputsSilent = 255;
 
 /// Plain data, made in the loop. No fault: reason kNone. node_id 0: of the bus, not of one drive.
 struct DriveFault {

@@ -77,6 +77,9 @@ std::string reason_of(const DriveFault& fault) {
              ")";
     case DriveFaultReason::kEncoderStuck:
       return "told to turn, but its position stays: encoder, coupling or a blocked wheel";
+    case DriveFaultReason::kWheelNotFollowing:
+      return "turns " + std::to_string(fault.code) +
+             " mm/s otherwise than told: blocked, driven from outside, or a slipping belt";
     case DriveFaultReason::kResetLimit:
       return "faults come back: " + std::to_string(fault.code) + " resets did not help; start anew when it is mended";
     case DriveFaultReason::kBusLost:
@@ -93,6 +96,9 @@ std::string reason_of(const DriveFault& fault) {
     case DriveFaultReason::kWheelSlip:
       return "wheels slip: " + std::to_string(fault.code) + " mm/s that no motion of the base explains";
     case DriveFaultReason::kStopInput:
+      if (fault.code == kStopInputsSilent) {
+        return "emergency stop and bumpers are not read any more, which counts as pressed";
+      }
       return fault.code == 0 ? "emergency stop pressed" : "bumper " + std::to_string(fault.code) + " touched";
   }
   return "unknown fault";

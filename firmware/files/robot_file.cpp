@@ -8,6 +8,7 @@
 #include "config/rates.hpp"
 #include "firmware/files/eds_file.hpp"
 #include "firmware/files/number_text.hpp"
+#include "firmware/files/robot_inputs.hpp"
 #include "firmware/files/text_file.hpp"
 #include "firmware/files/toml_table.hpp"
 #include "firmware/files/wheel_keys.hpp"
@@ -22,6 +23,7 @@ BaseParameters read_base(const TomlValue& table) {
   base.half_length_m = table.required("half_length_m").number({0.05, 2.0, "metres"});
   base.half_width_m = table.required("half_width_m").number({0.05, 2.0, "metres"});
   base.max_wheel_radps = table.required("max_wheel_radps").number({0.1, 1000.0, "radians a second"});
+  base.turn_scale = table.optional("turn_scale").number({0.5, 2.0}, 1.0);
   return base;
 }
 
@@ -158,6 +160,7 @@ Result<Robot> read_robot(const std::string& path) {
   for (std::size_t i = 0; i < kWheelKeys.size(); ++i) {
     robot.drives[i] = read_drive(drives.required(kWheelKeys[i]), path);
   }
+  robot.inputs = read_inputs(root.optional("inputs"));
   refuse_shared_node_ids(drives, robot);
   refuse_units_that_do_not_fit(drives, robot);
   if (const Result<void> finish = toml.value().finish(); !finish) {

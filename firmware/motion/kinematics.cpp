@@ -24,8 +24,8 @@ WheelMatrix rim_speeds_from_twist(const BaseParameters& base) noexcept {
   const double ly = base.half_width_m;
   const double diagonal = std::hypot(lx, ly);
   const Eigen::Vector3d lever = base.geometry == WheelGeometry::kMecanum
-                                    ? Eigen::Vector3d(1.0, 1.0, lx + ly)
-                                    : Eigen::Vector3d(ly / diagonal, lx / diagonal, diagonal);
+                                    ? Eigen::Vector3d(1.0, 1.0, base.turn_scale * (lx + ly))
+                                    : Eigen::Vector3d(ly / diagonal, lx / diagonal, base.turn_scale * diagonal);
   return signs * lever.asDiagonal();
 }
 
@@ -34,7 +34,7 @@ WheelMatrix rim_speeds_from_twist(const BaseParameters& base) noexcept {
 Kinematics::Kinematics(const BaseParameters& base) noexcept
     : wheel_radius_m_(base.wheel_radius_m), max_wheel_radps_(base.max_wheel_radps) {
   IVO_CONTRACT(positive(base.wheel_radius_m) && positive(base.half_length_m) && positive(base.half_width_m) &&
-               positive(base.max_wheel_radps));
+               positive(base.max_wheel_radps) && positive(base.turn_scale));
   wheels_from_twist_ = rim_speeds_from_twist(base) / wheel_radius_m_;
   const Eigen::Matrix3d normal = wheels_from_twist_.transpose() * wheels_from_twist_;
   twist_from_wheels_ = normal.inverse() * wheels_from_twist_.transpose();

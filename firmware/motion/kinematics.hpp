@@ -13,14 +13,16 @@ namespace ivo::firmware {
 /// geometries.
 using WheelValues = std::array<double, kWheels>;
 
-/// With r the wheel's radius, k = lx + ly and R = |(lx, ly)|:
-///   mecanum: r w = vx -/+ vy -/+ k wz          FL (-,-)  FR (+,+)  RL (+,-)  RR (-,+)
-///   omni X:  r w = (ly vx -/+ lx vy) / R -/+ R wz, the same signs; its axles lie along the diagonals of the base.
-/// Both follow from no slip along the wheel's driven direction at its point of contact.
+/// With r the wheel's radius, R = |(lx, ly)|, and as lever arm of a turn k = turn_scale (lx + ly) or turn_scale R:
+///   mecanum: r w = vx -/+ vy -/+ k wz              FL (-,-)  FR (+,+)  RL (+,-)  RR (-,+)
+///   omni X:  r w = (ly vx -/+ lx vy) / R -/+ k wz, the same signs; its axles lie along the diagonals of the base.
+/// Both follow from no slip along the wheel's driven direction at its point of contact. Rollers touch the floor over
+/// their width, so the k of a turn is a matter of calibration: turn on the spot by odometry, and multiply turn_scale by
+/// the turn that odometry told over the turn that was made.
 class Kinematics {
  public:
-  /// Radius, half length, half width and largest wheel speed must be finite and above 0 (contract: the robot file's
-  /// reader refuses others).
+  /// Radius, half length, half width, turn scale and largest wheel speed must be finite and above 0 (contract: the
+  /// robot file's reader refuses others).
   explicit Kinematics(const BaseParameters& base) noexcept;
 
   /// rad/s.

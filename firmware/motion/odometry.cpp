@@ -10,10 +10,12 @@ namespace ivo::firmware {
 
 void Odometry::reset(const Pose& pose) noexcept {
   pose_ = pose;
+  moved_ = {};
   reference_rad_.reset();
 }
 
 bool Odometry::update(const WheelValues& angles_rad) noexcept {
+  moved_ = {};
   if (!std::all_of(angles_rad.begin(), angles_rad.end(), [](double angle) { return std::isfinite(angle); })) {
     return false;
   }
@@ -23,7 +25,8 @@ bool Odometry::update(const WheelValues& angles_rad) noexcept {
       turned_rad[i] = angles_rad[i] - (*reference_rad_)[i];
     }
     // Angles stand for speeds over one second, so the twist is the displacement.
-    pose_ = advance(pose_, kinematics_.twist(turned_rad), 1.0);
+    moved_ = kinematics_.twist(turned_rad);
+    pose_ = advance(pose_, moved_, 1.0);
   }
   reference_rad_ = angles_rad;
   return true;

@@ -21,12 +21,17 @@ class Odometry {
   /// finite.
   bool update(const WheelValues& angles_rad) noexcept;
 
+  /// What the last update() laid to the pose, as a twist held for one second (m, m, rad in the body frame): 0 when it
+  /// was the first or was refused. For PoseFilter::predict.
+  [[nodiscard]] const Twist& moved() const noexcept { return moved_; }
+
   /// In the frame of the pose given to reset(); the heading within [-pi, pi].
   [[nodiscard]] const Pose& pose() const noexcept { return pose_; }
 
  private:
   Kinematics kinematics_;
   Pose pose_;
+  Twist moved_;
   std::optional<WheelValues> reference_rad_;
 };
 

@@ -39,6 +39,9 @@ class Includes(unittest.TestCase):
     def test_motion_safety_and_record_keep_to_themselves(self):
         self.accepts("firmware/motion/odometry.cpp", '"firmware/motion/kinematics.hpp"')
         self.accepts("firmware/safety/guarded_bus.hpp", '"hal/api/can_bus.hpp"')
+        self.accepts("firmware/safety/wheel_monitor.hpp", '"drivers/drive_fault.hpp"')
+        self.accepts("firmware/safety/wheel_monitor.hpp", '"firmware/motion/kinematics.hpp"')
+        self.refuses("firmware/motion/kinematics.cpp", '"firmware/safety/mode.hpp"', "firmware/motion may include only")
         self.refuses("firmware/motion/odometry.cpp", '"hal/api/can_bus.hpp"', "firmware/motion may include only")
         self.refuses("firmware/safety/supervisor.cpp", '"drivers/cia402/drive.hpp"', "firmware/safety may include only")
         self.refuses("firmware/record/event_ring.hpp", '"firmware/loop/control_loop.hpp"', "firmware/record may include only")

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <new>
 
+#include "tests/support/heap_trap.hpp"
 #include "tests/support/search_rig.hpp"
 
 namespace {
@@ -35,9 +36,14 @@ namespace {
 TEST(ControlLoop, NoCycleAllocatesFromPlanningToPowerOff) {
   test::SearchRig rig({});
   counting = true;
-  const bool started = rig.start_search();
-  const bool ended = rig.run_until(Mode::kDone);
-  rig.run(std::chrono::seconds(1));
+  bool started = false;
+  bool ended = false;
+  {
+    const test::NoHeap no_heap;  // malloc too, in the preset noheap
+    started = rig.start_search();
+    ended = rig.run_until(Mode::kDone);
+    rig.run(std::chrono::seconds(1));
+  }
   counting = false;
   EXPECT_TRUE(started && ended);
   EXPECT_EQ(allocations, 0);

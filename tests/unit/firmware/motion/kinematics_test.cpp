@@ -140,9 +140,37 @@ TEST_P(BothGeometries, AllowNothingForWheelSpeedsThatAreNotNumbers) {
   EXPECT_EQ(kinematics.saturation({1, 1, 1, -std::numeric_limits<double>::infinity()}), 0.0);
 }
 
+TEST_P(BothGeometries, TurnByTheCalibratedLeverArmAndMoveAsBefore) {
+  BaseParameters base = base_of(GetParam());
+  const Kinematics drawn(base);
+  base.turn_scale = 1.2;
+  const Kinematics calibrated(base);
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    EXPECT_NEAR(calibrated.wheel_speeds({0, 0, 1})[i], 1.2 * drawn.wheel_speeds({0, 0, 1})[i], kExact);
+    EXPECT_NEAR(calibrated.wheel_speeds({0.3, -0.2, 0})[i], drawn.wheel_speeds({0.3, -0.2, 0})[i], kExact);
+  }
+  // As the header says to calibrate: wheels that odometry of the drawing takes for 1.2 rad have made 1 rad.
+  const WheelValues turned = calibrated.wheel_speeds({0, 0, 1});
+  EXPECT_NEAR(drawn.twist(turned).wz_radps, 1.2, kExact);
+  EXPECT_NEAR(calibrated.twist(turned).wz_radps, 1.0, kExact);
+}
+
+TEST_P(BothGeometries, HaveTheLeftNullVectorOfAllMotions) {
+  // (FL, FR, RR, RL) = (1, 1, -1, -1), told column by column, so that a wrong sign in one cannot hide in another.
+  const Kinematics kinematics(base_of(GetParam()));
+  for (const Twist& twist : {Twist{1, 0, 0}, Twist{0, 1, 0}, Twist{0, 0, 1}}) {
+    const auto [fl, fr, rl, rr] = kinematics.wheel_speeds(twist);
+    EXPECT_NEAR(fl + fr - rr - rl, 0.0, kExact);
+    EXPECT_GT(std::abs(fl), 0.1);
+  }
+}
+
 TEST(KinematicsDeathTest, BreaksOnABaseWithoutWheels) {
   BaseParameters base;
   base.wheel_radius_m = 0.0;
+  EXPECT_DEATH(Kinematics{base}, "");
+  base = {};
+  base.turn_scale = 0.0;
   EXPECT_DEATH(Kinematics{base}, "");
 }
 

@@ -122,6 +122,18 @@ TEST_P(OdometryOf, AResetForgetsWhatTheWheelsDidBefore) {
   expect_pose(5.0, 6.0, kPi / 2);
 }
 
+TEST_P(OdometryOf, SaysWhatTheLastReadingMoved) {
+  EXPECT_EQ(odometry_.moved().vx_mps, 0.0) << "a first reading moves nothing";
+  odometry_.update(wheels_.turn({0.5, -0.2, 0.8}, 0.1));
+  EXPECT_NEAR(odometry_.moved().vx_mps, 0.05, 1e-12);
+  EXPECT_NEAR(odometry_.moved().vy_mps, -0.02, 1e-12);
+  EXPECT_NEAR(odometry_.moved().wz_radps, 0.08, 1e-12);
+  WheelValues broken = wheels_.turn({0.5, 0, 0}, 0.1);
+  broken[3] = std::nan("");
+  odometry_.update(broken);
+  EXPECT_EQ(odometry_.moved().vx_mps, 0.0) << "nor does one that is refused";
+}
+
 TEST(Arc, AgreesOnBothSidesOfTheSeries) {
   // The series and the quotient meet at a half turn of 1e-4.
   const Pose below = advance({}, {1.0, 0.5, 1.9999999e-4}, 1.0);
