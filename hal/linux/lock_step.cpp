@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "config/limits.hpp"
+#include "config/rates.hpp"
 
 namespace ivo::hal {
 namespace {
@@ -48,6 +49,7 @@ void LockStep::sleep_until(Instant deadline) noexcept {
     bus_.look_at_interface();
   } else {
     await_answers();
+    await_departure();
   }
   now_ = std::max(now_, deadline);
   arrived_ = 0;
@@ -75,6 +77,15 @@ void LockStep::await_answers() noexcept {
       case SocketCanBus::Woken::kByTime:
         break;
     }
+  }
+}
+
+// Our time must not outrun what we sent: how long a kernel takes to show us a frame again is not for the loop to judge.
+void LockStep::await_departure() noexcept {
+  const Instant limit = host_.now() + rates::kTransmitTimeout;
+  while (bus_.in_flight() > 0 && !bus_gone() && host_.now() < limit) {
+    (void)bus_.wait(limit - host_.now());
+    collect();
   }
 }
 

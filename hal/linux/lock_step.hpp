@@ -65,6 +65,7 @@ class LockStep final : public CanBus, public Clock {
   [[nodiscard]] bool complete() const noexcept;
   [[nodiscard]] bool bus_gone() const noexcept;
   void await_answers() noexcept;
+  void await_departure() noexcept;
   bool collect() noexcept;
   bool take(const ReceivedFrame& received) noexcept;
 

@@ -204,6 +204,8 @@ SocketCanBus::Details SocketCanBus::details() const noexcept {
 
 bool SocketCanBus::just_sent(std::uint16_t id) const noexcept { return state_->table.just_handed_over(id); }
 
+std::size_t SocketCanBus::in_flight() const noexcept { return state_->table.in_flight(); }
+
 const InterfaceFacts& SocketCanBus::facts() const noexcept { return state_->facts; }
 
 void SocketCanBus::look_at_interface() {

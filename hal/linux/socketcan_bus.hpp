@@ -69,6 +69,8 @@ class SocketCanBus final : public CanBus {
   [[nodiscard]] Details details() const noexcept;
   /// The last send() handed over a frame with this COB-ID, given then or left over.
   [[nodiscard]] bool just_sent(std::uint16_t id) const noexcept;
+  /// Frames handed over and not yet seen to leave.
+  [[nodiscard]] std::size_t in_flight() const noexcept;
   /// What the kernel said of the interface when it was opened; default-made without interface.
   [[nodiscard]] const InterfaceFacts& facts() const noexcept;
 
