@@ -93,7 +93,8 @@ Result<void> run_drives(const DrivesOptions& options, const std::atomic<bool>& s
   if (!robot.ok()) {
     return robot.error();
   }
-  Result<hal::SocketCanBus> bus = hal::SocketCanBus::open(options.interface);
+  // A drive's answers are all sent: a newer one does not stand for those before it.
+  Result<hal::SocketCanBus> bus = hal::SocketCanBus::open(options.interface, {.confirm = false});
   if (!bus.ok()) {
     return bus.error();
   }
