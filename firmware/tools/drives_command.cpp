@@ -150,7 +150,8 @@ Result<void> run_drives(const DrivesOptions& options, const std::atomic<bool>& s
   if (const Result<void> opened = log.open(options.log_path); !opened.ok()) {
     return opened.error();
   }
-  Result<hal::SocketCanBus> bus = hal::SocketCanBus::open(options.interface);
+  // A drive's answers are all sent: a newer one does not stand for those before it.
+  Result<hal::SocketCanBus> bus = hal::SocketCanBus::open(options.interface, {.confirm = false});
   if (!bus.ok()) {
     return bus.error();
   }

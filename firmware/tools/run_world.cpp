@@ -6,6 +6,7 @@
 #include "drivers/canopen/cob_id.hpp"
 #include "drivers/sim/sim_drives.hpp"
 #include "firmware/files/number_text.hpp"
+#include "hal/linux/interface_watch.hpp"
 #include "hal/linux/lock_step.hpp"
 #include "hal/linux/monotonic_clock.hpp"
 #include "hal/linux/paced_clock.hpp"
@@ -47,17 +48,22 @@ class VirtualWorld final : public RunWorld {
 
 class SocketWorld final : public RunWorld {
  public:
-  SocketWorld(const RunOptions& options, hal::SocketCanBus bus) : interface_(options.can), bus_(std::move(bus)) {}
+  SocketWorld(const RunOptions& options, hal::SocketCanBus bus)
+      : interface_(options.can), bus_(std::move(bus)), watch_(bus_) {}
 
   hal::CanBus& bus() noexcept override { return bus_; }
   hal::Clock& clock() noexcept override { return clock_; }
   void after_cycle(const ControlLoop& /*loop*/) noexcept override {}
   [[nodiscard]] bool own_time() const noexcept override { return false; }
-  [[nodiscard]] std::string description() const override { return interface_ + ", real time"; }
+  [[nodiscard]] std::string description() const override {
+    const std::string advice = hal::advice(bus_.facts());
+    return interface_ + ", real time" + (advice.empty() ? "" : "; " + advice);
+  }
 
  private:
   std::string interface_;
   hal::SocketCanBus bus_;
+  hal::InterfaceWatch watch_;
   hal::MonotonicClock clock_;
 };
 
@@ -105,7 +111,7 @@ Result<std::unique_ptr<RunWorld>> RunWorld::open(const RunOptions& options, cons
   if (options.lock_step && !options.can.starts_with("vcan") && !options.can.starts_with("vxcan")) {
     return Error{"--clock sync: " + options.can + " may be a real interface; expected a virtual one, as vcan0"};
   }
-  Result<hal::SocketCanBus> bus = hal::SocketCanBus::open(options.can);
+  Result<hal::SocketCanBus> bus = hal::SocketCanBus::open(options.can, {.bit_rate_bps = robot.bit_rate_bps});
   if (!bus) {
     return bus.error();
   }

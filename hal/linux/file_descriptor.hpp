@@ -23,6 +23,8 @@ class FileDescriptor {
   }
 
   [[nodiscard]] int get() const noexcept { return fd_; }
+  /// The descriptor, which the caller owns from now on.
+  [[nodiscard]] int release() noexcept { return std::exchange(fd_, -1); }
   [[nodiscard]] bool valid() const noexcept { return fd_ >= 0; }
 
  private:

@@ -3,8 +3,14 @@
 #include <algorithm>
 
 #include "config/limits.hpp"
+#include "config/rates.hpp"
 
 namespace ivo::hal {
+namespace {
+
+constexpr Duration kLookUp = std::chrono::milliseconds(100);  // from waiting, whether somebody is in a hurry
+
+}  // namespace
 
 LockStep::LockStep(SocketCanBus& bus, const Options& options) noexcept : bus_(bus), options_(options) {}
 
@@ -19,14 +25,13 @@ std::size_t LockStep::receive(std::span<ReceivedFrame> frames, Instant now) noex
   return count;
 }
 
-std::size_t LockStep::send(std::span<const CanFrame> frames, Instant /*now*/) noexcept {
-  const std::size_t count = bus_.send(frames, host_.now());
-  ever_sent_ = ever_sent_ || count > 0;
-  for (const CanFrame& frame : frames.first(count)) {
-    if (frame.id == options_.sync_id) {
-      sync_sent_ = true;
-      sync_answers_missing_ = (std::uint32_t{1} << options_.answer_ids.size()) - 1;
-    }
+std::size_t LockStep::send(std::span<const CanFrame> frames, Instant now) noexcept {
+  const std::uint64_t before = bus_.counters().sent;
+  const std::size_t count = bus_.send(frames, now);
+  ever_sent_ = ever_sent_ || bus_.counters().sent > before;
+  if (bus_.just_sent(options_.sync_id)) {
+    sync_sent_ = true;
+    sync_answers_missing_ = (std::uint32_t{1} << options_.answer_ids.size()) - 1;
   }
   return count;
 }
@@ -40,20 +45,51 @@ BusCounters LockStep::counters() const noexcept {
 
 void LockStep::sleep_until(Instant deadline) noexcept {
   collect();
-  Instant last_progress = host_.now();
-  while (!stalled_ && !complete()) {
-    const Duration left = last_progress + options_.patience - host_.now();
-    if (left <= Duration::zero()) {
-      stalled_ = true;
-    } else if (bus_.wait_readable(left) && collect()) {
-      last_progress = host_.now();
-    }
+  if (bus_gone()) {
+    bus_.look_at_interface();
+  } else {
+    await_answers();
+    await_departure();
   }
   now_ = std::max(now_, deadline);
   arrived_ = 0;
   sync_sent_ = false;
   sync_answers_missing_ = 0;
 }
+
+void LockStep::await_answers() noexcept {
+  Instant last_progress = host_.now();
+  while (!stalled_ && !complete() && !bus_gone()) {
+    const bool hurry = hurry_.load(std::memory_order_relaxed);
+    const Duration patience = hurry ? std::min(options_.patience, kHurry) : options_.patience;
+    const Duration left = last_progress + patience - host_.now();
+    if (left <= Duration::zero()) {
+      stalled_ = true;
+      return;
+    }
+    switch (bus_.wait(std::min(left, kLookUp))) {
+      case SocketCanBus::Woken::kByFrame:
+        last_progress = collect() ? host_.now() : last_progress;
+        break;
+      case SocketCanBus::Woken::kBySignal:
+        interrupt();
+        break;
+      case SocketCanBus::Woken::kByTime:
+        break;
+    }
+  }
+}
+
+// Our time must not outrun what we sent: how long a kernel takes to show us a frame again is not for the loop to judge.
+void LockStep::await_departure() noexcept {
+  const Instant limit = host_.now() + rates::kTransmitTimeout;
+  while (bus_.in_flight() > 0 && !bus_gone() && host_.now() < limit) {
+    (void)bus_.wait(limit - host_.now());
+    collect();
+  }
+}
+
+bool LockStep::bus_gone() const noexcept { return lost(bus_.state()) && bus_.state() != BusState::kUnconfirmed; }
 
 bool LockStep::complete() const noexcept {
   if (!ever_sent_) {
@@ -64,7 +100,7 @@ bool LockStep::complete() const noexcept {
 
 bool LockStep::collect() noexcept {
   std::array<ReceivedFrame, limits::kFramesPerCycle> frames;
-  const std::size_t count = bus_.receive(frames, host_.now());
+  const std::size_t count = bus_.receive(frames, now_);
   bool due = false;
   for (const ReceivedFrame& frame : std::span(frames).first(count)) {
     due = take(frame) || due;

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <span>
 
@@ -24,10 +25,16 @@ namespace ivo::hal {
 /// - nothing was ever sent, or nothing is expected: nothing.
 /// Drives that fall silent therefore stop time. Only one limit looks at the host's clock: when `patience` has passed
 /// without a frame that was due, stalled() is true and no later sleep waits, so that the program can end and say so.
+/// A signal during a wait, or interrupt(), leaves kHurry of it, in this wait and in later ones.
+///
+/// Frames of our own that come back are no answers. While the bus is lost nothing can be due: time goes on without
+/// waiting, and each sleep looks whether the interface is back. Unconfirmed is not lost here: how long a frame is on
+/// its way is the host's affair.
 class LockStep final : public CanBus, public Clock {
  public:
   static constexpr std::size_t kAnswerIds = 8;
   static constexpr std::size_t kQueueFrames = 1024;
+  static constexpr Duration kHurry = std::chrono::seconds(1);
 
   struct Options {
     std::uint16_t sync_id = 0x080;
@@ -42,6 +49,8 @@ class LockStep final : public CanBus, public Clock {
   /// sleep_until.
   void expect_answers(int count) noexcept { expected_ = count; }
   [[nodiscard]] bool stalled() const noexcept { return stalled_; }
+  /// A person wants an end. Any thread, and a signal handler.
+  void interrupt() noexcept { hurry_.store(true, std::memory_order_relaxed); }
 
   /// Hands out what arrived during sleep_until, and nothing that arrives later.
   std::size_t receive(std::span<ReceivedFrame> frames, Instant now) noexcept override;
@@ -54,6 +63,9 @@ class LockStep final : public CanBus, public Clock {
 
  private:
   [[nodiscard]] bool complete() const noexcept;
+  [[nodiscard]] bool bus_gone() const noexcept;
+  void await_answers() noexcept;
+  void await_departure() noexcept;
   bool collect() noexcept;
   bool take(const ReceivedFrame& received) noexcept;
 
@@ -63,6 +75,7 @@ class LockStep final : public CanBus, public Clock {
   Instant now_{};
   bool ever_sent_ = false;
   bool stalled_ = false;
+  std::atomic<bool> hurry_{false};
   int expected_ = 0;
   int arrived_ = 0;
   std::uint32_t sync_answers_missing_ = 0;  // a bit for each of answer_ids; 0 when no SYNC is out

@@ -1,221 +1,299 @@
 #include "hal/linux/socketcan_bus.hpp"
 
 #include <linux/can.h>
-#include <linux/can/error.h>
-#include <linux/can/raw.h>
-#include <net/if.h>
-#include <net/if_arp.h>
 #include <poll.h>
-#include <sys/ioctl.h>
 #include <sys/socket.h>
+#include <time.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
+#include <optional>
 
-#include "config/base/contract.hpp"
-#include "config/limits.hpp"
-#include "hal/linux/error_frame.hpp"
+#include "hal/linux/arrival_stamps.hpp"
+#include "hal/linux/can_socket.hpp"
+#include "hal/linux/interface_look.hpp"
+#include "hal/linux/socket_handover.hpp"
+#include "hal/linux/socket_messages.hpp"
 
 namespace ivo::hal {
 namespace {
 
-constexpr int kReceiveBufferBytes = 1 << 20;  // about 1,300 frames: 150 ms of a saturated 1 Mbit/s bus
+enum class Link : std::uint8_t { kUp, kDown, kRemoved };
 
-Error refuse_socket(int error) {
-  if (error == EAFNOSUPPORT || error == EPROTONOSUPPORT) {
-    return Error{"this kernel has no CAN sockets (AF_CAN): load the can module or use the virtual bus"};
-  }
-  return Error{std::string("cannot open a CAN socket: ") + std::strerror(error)};
+// Without system call: the kernel maps the clock into the process.
+Duration wall_clock() noexcept {
+  timespec t{};
+  clock_gettime(CLOCK_REALTIME, &t);
+  return std::chrono::seconds(t.tv_sec) + Duration(t.tv_nsec);
 }
 
-Result<int> find_interface(int socket, const std::string& name) {
-  const Error unknown{"no CAN interface \"" + name + "\": `ip link show type can` (or vcan) lists those there are"};
-  ifreq request{};
-  if (name.empty() || name.size() >= sizeof request.ifr_name) {
-    return unknown;
+IdSet set_of(std::span<const std::uint16_t> ids) {
+  IdSet set;
+  for (const std::uint16_t id : ids) {
+    set.set(id);
   }
-  name.copy(request.ifr_name, name.size());
-  if (ioctl(socket, SIOCGIFINDEX, &request) < 0) {
-    return unknown;
-  }
-  const int index = request.ifr_ifindex;
-  if (ioctl(socket, SIOCGIFHWADDR, &request) < 0 || request.ifr_hwaddr.sa_family != ARPHRD_CAN) {
-    return Error{"\"" + name + "\" is not a CAN interface: `ip link show type can` (or vcan) lists those there are"};
-  }
-  if (ioctl(socket, SIOCGIFFLAGS, &request) < 0 || (request.ifr_flags & IFF_UP) == 0) {
-    return Error{"CAN interface \"" + name + "\" is down: `ip link set " + name + " up` brings it up"};
-  }
-  return index;
-}
-
-template <class T>
-bool set_option(int socket, int level, int option, const T& value) {
-  return setsockopt(socket, level, option, &value, sizeof value) == 0;
+  return ids.empty() ? set.set() : set;
 }
 
 }  // namespace
 
-struct SocketCanBus::Messages {
-  static constexpr std::size_t kCount = limits::kFramesPerCycle;
-  struct alignas(cmsghdr) Control {
-    std::array<char, CMSG_SPACE(sizeof(std::uint32_t))> bytes;
-  };
+struct SocketCanBus::State {
+  State(FileDescriptor opened, const IdSet& heard_ids, const IdSet& echoed)
+      : socket(std::move(opened)), heard(heard_ids), table(echoed) {}
 
-  std::array<can_frame, kCount> frames{};
-  std::array<iovec, kCount> places{};
-  std::array<Control, kCount> controls{};
-  std::array<mmsghdr, kCount> headers{};
-  std::uint32_t lost_so_far = 0;
+  void take_news() noexcept;
+  void take_report(const LinkReport& report) noexcept;
+  void take_error_frame(const can_frame& frame) noexcept;
+  [[nodiscard]] bool take(ReceivedFrame& place, Instant now) noexcept;
+  void note_lost(std::uint32_t lost_in_all) noexcept;
+  void note_error(int error) noexcept;
+  void set_link(Link now) noexcept;
+  void set_controller(BusState now) noexcept;
 
-  Messages() noexcept {
-    for (std::size_t i = 0; i < kCount; ++i) {
-      places[i] = {.iov_base = &frames[i], .iov_len = sizeof(can_frame)};
-      headers[i].msg_hdr.msg_iov = &places[i];
-      headers[i].msg_hdr.msg_iovlen = 1;
-    }
-  }
-
-  void ready_to_receive(std::size_t count) noexcept {
-    for (std::size_t i = 0; i < count; ++i) {
-      headers[i].msg_hdr.msg_control = controls[i].bytes.data();
-      headers[i].msg_hdr.msg_controllen = sizeof(Control);
-    }
-  }
-
-  void ready_to_send(std::span<const CanFrame> from) noexcept {
-    for (std::size_t i = 0; i < from.size(); ++i) {
-      IVO_CONTRACT(from[i].id <= CAN_SFF_MASK && from[i].size <= CAN_MAX_DLEN);
-      frames[i] = {};
-      frames[i].can_id = from[i].id;
-      frames[i].can_dlc = from[i].size;
-      std::copy(from[i].data.begin(), from[i].data.end(), frames[i].data);
-      headers[i].msg_hdr.msg_control = nullptr;
-      headers[i].msg_hdr.msg_controllen = 0;
-    }
-  }
-
-  /// Frames that the socket lost since the last call, as far as message `i` tells.
-  std::uint32_t newly_lost(std::size_t i) noexcept {
-    msghdr& header = headers[i].msg_hdr;
-    for (cmsghdr* c = CMSG_FIRSTHDR(&header); c != nullptr; c = CMSG_NXTHDR(&header, c)) {
-      if (c->cmsg_level == SOL_SOCKET && c->cmsg_type == SO_RXQ_OVFL) {
-        std::uint32_t lost = 0;
-        std::memcpy(&lost, CMSG_DATA(c), sizeof lost);
-        const std::uint32_t more = lost - lost_so_far;
-        lost_so_far = lost;
-        return more;
-      }
-    }
-    return 0;
-  }
+  FileDescriptor socket;
+  IdSet heard;
+  TransmitTable table;
+  ReceivedMessages in;
+  SentMessages out;
+  ArrivalStamps stamps;
+  Link link = Link::kUp;
+  BusState controller = BusState::kActive;
+  std::uint64_t received = 0;
+  std::uint64_t receive_dropped = 0;
+  std::uint64_t refused = 0;  // frames given while there was no bus
+  std::uint32_t lost_in_all = 0;
+  bool drained = false;  // the last receive left nothing that had arrived
+  Details details;
+  InterfaceFacts facts;
+  SocketHandover handover;
+  std::optional<InterfaceLook> look;
 };
 
-Result<SocketCanBus> SocketCanBus::open(const std::string& name) {
-  FileDescriptor socket(::socket(AF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW));
-  if (!socket.valid()) {
-    return refuse_socket(errno);
+Result<SocketCanBus> SocketCanBus::open(const std::string& name, const Options& options) {
+  const CanSocketOptions wanted{.ids = {options.ids.begin(), options.ids.end()}, .hear_own = options.confirm};
+  Result<CanSocket> opened = open_can_socket(name, wanted);
+  if (!opened) {
+    return opened.error();
   }
-  const int fd = socket.get();
-  const Result<int> index = find_interface(fd, name);
-  if (!index.ok()) {
-    return index.error();
+  LinkAnswer answer = ask_for_link(name);
+  if (const Result<void> fits = check_bit_rate(answer.facts, options.bit_rate_bps); !fits) {
+    return fits.error();
   }
-  // Without the two flags in the mask, extended and remote frames with the same low bits pass too.
-  const can_filter plain_data_frames{.can_id = 0, .can_mask = CAN_EFF_FLAG | CAN_RTR_FLAG};
-  const can_err_mask_t every_error = CAN_ERR_MASK;
-  const int on = 1;
-  sockaddr_can address{};
-  address.can_family = AF_CAN;
-  address.can_ifindex = index.value();
-  if (!set_option(fd, SOL_CAN_RAW, CAN_RAW_FILTER, plain_data_frames) ||
-      !set_option(fd, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, every_error) || !set_option(fd, SOL_SOCKET, SO_RXQ_OVFL, on) ||
-      bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) < 0) {
-    return Error{"cannot set up CAN interface \"" + name + "\": " + std::strerror(errno)};
-  }
-  if (!set_option(fd, SOL_SOCKET, SO_RCVBUFFORCE, kReceiveBufferBytes)) {
-    set_option(fd, SOL_SOCKET, SO_RCVBUF, kReceiveBufferBytes);
-  }
-  return SocketCanBus(std::move(socket));
+  const IdSet heard = set_of(options.ids);
+  auto state = std::make_unique<State>(std::move(opened.value().socket), heard, options.confirm ? heard : IdSet{});
+  state->facts = std::move(answer.facts);
+  state->look.emplace(name, wanted, opened.value().index, options.bit_rate_bps, state->handover);
+  return SocketCanBus(std::move(state));
 }
 
 SocketCanBus::SocketCanBus(FileDescriptor socket)
-    : socket_(std::move(socket)), messages_(std::make_unique<Messages>()) {}
+    : state_(std::make_unique<State>(std::move(socket), set_of({}), IdSet{})) {}
+SocketCanBus::SocketCanBus(std::unique_ptr<State> state) : state_(std::move(state)) {}
 SocketCanBus::SocketCanBus(SocketCanBus&&) noexcept = default;
 SocketCanBus& SocketCanBus::operator=(SocketCanBus&&) noexcept = default;
 SocketCanBus::~SocketCanBus() = default;
 
 std::size_t SocketCanBus::receive(std::span<ReceivedFrame> frames, Instant now) noexcept {
-  const std::size_t room = std::min(frames.size(), Messages::kCount);
-  messages_->ready_to_receive(room);
-  const int got =
-      recvmmsg(socket_.get(), messages_->headers.data(), static_cast<unsigned>(room), MSG_DONTWAIT, nullptr);
-  if (got < 0) {
-    note_error(errno);
+  State& s = *state_;
+  s.take_news();
+  s.stamps.begin(now, wall_clock(), !s.drained);
+  std::size_t count = 0;
+  bool fetched = false;
+  while (count < frames.size()) {
+    if (s.in.empty()) {
+      if (fetched) {
+        break;
+      }
+      fetched = true;
+      s.note_error(s.in.fetch(s.socket.get()).error);
+      continue;
+    }
+    count += s.take(frames[count], now) ? 1 : 0;
+    s.in.pop();
+  }
+  s.drained = fetched && s.in.drained();
+  if (s.drained) {
+    s.table.settle(now);
+  }
+  s.received += count;
+  return count;
+}
+
+/// The first message that is left, when it is a data frame of others; else it is seen to here.
+bool SocketCanBus::State::take(ReceivedFrame& place, Instant now) noexcept {
+  const ReceivedMessages::Notes notes = in.notes();
+  if (notes.tells_lost) {
+    note_lost(notes.lost);
+  }
+  const can_frame& raw = in.frame();
+  if (!in.whole()) {
+    ++details.malformed;
+    return false;
+  }
+  if ((raw.can_id & CAN_ERR_FLAG) != 0) {
+    take_error_frame(raw);
+    return false;
+  }
+  const auto id = static_cast<std::uint16_t>(raw.can_id & CAN_SFF_MASK);
+  if ((raw.can_id & (CAN_EFF_FLAG | CAN_RTR_FLAG)) != 0 || !heard[id]) {
+    return false;
+  }
+  CanFrame frame{.id = id, .size = raw.can_dlc, .data = {}};
+  std::copy_n(raw.data, frame.data.size(), frame.data.begin());
+  if ((in.flags() & MSG_CONFIRM) != 0) {
+    table.echo(frame, now);
+    return false;
+  }
+  const bool this_host = (in.flags() & MSG_DONTROUTE) != 0;
+  place = {
+      .frame = frame, .at = stamps.at(notes.stamp), .origin = this_host ? FrameOrigin::kThisHost : FrameOrigin::kBus};
+  return true;
+}
+
+std::size_t SocketCanBus::send(std::span<const CanFrame> frames, Instant now) noexcept {
+  State& s = *state_;
+  // What an interface takes while it is off would go out when it is back.
+  if (s.link == Link::kRemoved || s.controller == BusState::kOff) {
+    s.refused += frames.size();
     return 0;
   }
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(got); ++i) {
-    counters_.receive_dropped += messages_->newly_lost(i);
-    const can_frame& raw = messages_->frames[i];
-    if (messages_->headers[i].msg_len != sizeof(can_frame) || raw.can_dlc > CAN_MAX_DLEN) {
-      continue;
-    }
-    if ((raw.can_id & CAN_ERR_FLAG) != 0) {
-      state_ = state_told_by(raw).value_or(state_);
-      continue;
-    }
-    if ((raw.can_id & (CAN_EFF_FLAG | CAN_RTR_FLAG)) != 0) {
-      continue;
-    }
-    frames[count].at = now;
-    CanFrame& frame = frames[count++].frame;
-    frame.id = static_cast<std::uint16_t>(raw.can_id & CAN_SFF_MASK);
-    frame.size = raw.can_dlc;
-    std::copy_n(raw.data, frame.data.size(), frame.data.begin());
+  const std::span<const CanFrame> batch = s.table.offer(frames, now);
+  if (batch.empty()) {
+    return 0;
   }
-  if (count > 0) {
-    note_interface_works();
+  const CallResult sent = s.out.send(s.socket.get(), batch);
+  const std::size_t taken = s.table.handed_over(sent.count, now);
+  if (sent.count > 0 && s.link == Link::kDown) {
+    s.set_link(Link::kUp);
   }
-  counters_.received += count;
-  return count;
+  if (sent.count < batch.size()) {
+    ++s.details.queue_full;
+    s.note_error(sent.error);
+  }
+  if (s.link != Link::kUp) {
+    s.table.forget();
+  }
+  return taken;
 }
 
-std::size_t SocketCanBus::send(std::span<const CanFrame> frames, Instant /*now*/) noexcept {
-  const std::span<const CanFrame> batch = frames.first(std::min(frames.size(), Messages::kCount));
-  messages_->ready_to_send(batch);
-  const int took = sendmmsg(socket_.get(), messages_->headers.data(), static_cast<unsigned>(batch.size()),
-                            MSG_DONTWAIT | MSG_NOSIGNAL);
-  if (took < 0) {
-    note_error(errno);
-  } else if (took > 0) {
-    note_interface_works();
+BusState SocketCanBus::state() const noexcept {
+  const State& s = *state_;
+  if (s.link != Link::kUp) {
+    return s.link == Link::kDown ? BusState::kDown : BusState::kRemoved;
   }
-  const auto count = static_cast<std::size_t>(std::max(took, 0));
-  counters_.sent += count;
-  counters_.send_dropped += frames.size() - count;
-  return count;
+  return s.table.unconfirmed() ? std::max(s.controller, BusState::kUnconfirmed) : s.controller;
 }
 
-bool SocketCanBus::wait_readable(Duration limit) const noexcept {
+BusCounters SocketCanBus::counters() const noexcept {
+  const State& s = *state_;
+  const TransmitTable::Counters& sent = s.table.counters();
+  return {.received = s.received,
+          .sent = sent.handed_over,
+          .confirmed = sent.confirmed,
+          .send_dropped = sent.dropped + s.refused,
+          .send_replaced = sent.replaced,
+          .receive_dropped = s.receive_dropped + s.details.errors.receive_overflow};
+}
+
+SocketCanBus::Details SocketCanBus::details() const noexcept {
+  Details details = state_->details;
+  details.echo_lost = state_->table.counters().echo_lost;
+  details.stamps_clamped = state_->stamps.clamped();
+  return details;
+}
+
+bool SocketCanBus::just_sent(std::uint16_t id) const noexcept { return state_->table.just_handed_over(id); }
+
+std::size_t SocketCanBus::in_flight() const noexcept { return state_->table.in_flight(); }
+
+const InterfaceFacts& SocketCanBus::facts() const noexcept { return state_->facts; }
+
+void SocketCanBus::look_at_interface() {
+  if (state_->look) {
+    state_->look->once();
+  }
+}
+
+SocketCanBus::Woken SocketCanBus::wait(Duration limit) const noexcept {
   const Duration wait = std::max(limit, Duration::zero());
   const timespec timeout{.tv_sec = wait.count() / 1'000'000'000, .tv_nsec = wait.count() % 1'000'000'000};
-  pollfd ready{.fd = socket_.get(), .events = POLLIN, .revents = 0};
-  return ppoll(&ready, 1, &timeout, nullptr) > 0;
+  pollfd ready{.fd = state_->socket.get(), .events = POLLIN, .revents = 0};
+  const int count = ppoll(&ready, 1, &timeout, nullptr);
+  if (count > 0) {
+    return Woken::kByFrame;
+  }
+  return count < 0 && errno == EINTR ? Woken::kBySignal : Woken::kByTime;
 }
 
-void SocketCanBus::note_error(int error) noexcept {
+void SocketCanBus::State::take_news() noexcept {
+  if (const int fresh = handover.take(); fresh >= 0) {
+    handover.discard(socket.release());
+    socket = FileDescriptor(fresh);
+    lost_in_all = 0;
+    controller = BusState::kActive;
+    link = Link::kUp;
+    table.forget();
+    ++details.reopened;
+  }
+  if (const std::optional<LinkReport> report = handover.take_report()) {
+    take_report(*report);
+  }
+}
+
+void SocketCanBus::State::take_report(const LinkReport& report) noexcept {
+  if (!report.present) {
+    set_link(Link::kRemoved);
+    return;
+  }
+  if (link != Link::kRemoved) {  // a socket of a removed interface stays dead
+    set_link(report.up ? Link::kUp : Link::kDown);
+  }
+  if (report.controller) {
+    set_controller(*report.controller);
+  }
+  if (report.counts_errors) {
+    details.errors.transmit_errors = report.transmit_errors;
+    details.errors.receive_errors = report.receive_errors;
+  }
+}
+
+void SocketCanBus::State::take_error_frame(const can_frame& frame) noexcept {
+  count_error(frame, details.errors);
+  if (const std::optional<BusState> told = state_told_by(frame)) {
+    set_controller(*told);
+  }
+}
+
+void SocketCanBus::State::note_lost(std::uint32_t so_far) noexcept {
+  receive_dropped += so_far - lost_in_all;
+  lost_in_all = so_far;
+}
+
+void SocketCanBus::State::note_error(int error) noexcept {
   if (error == ENODEV || error == ENXIO) {
-    state_ = BusState::kRemoved;
-  } else if (error == ENETDOWN && state_ != BusState::kRemoved) {
-    state_ = BusState::kDown;
+    set_link(Link::kRemoved);
+  } else if (error == ENETDOWN && link != Link::kRemoved) {
+    set_link(Link::kDown);
   }
 }
 
-void SocketCanBus::note_interface_works() noexcept {
-  if (state_ == BusState::kDown) {
-    state_ = BusState::kActive;
+void SocketCanBus::State::set_link(Link now) noexcept {
+  if (now == link) {
+    return;
   }
+  link = now;
+  controller = BusState::kActive;
+  table.forget();
+}
+
+void SocketCanBus::State::set_controller(BusState now) noexcept {
+  if (now == controller) {
+    return;
+  }
+  if (now == BusState::kOff || controller == BusState::kOff) {
+    table.forget();
+  }
+  controller = now;
 }
 
 }  // namespace ivo::hal

@@ -3,6 +3,7 @@
 #include <sys/socket.h>
 
 #include <array>
+#include <chrono>
 #include <optional>
 #include <vector>
 
@@ -99,6 +100,7 @@ TYPED_TEST(CanBusContract, CarriesEveryIdentifierAndEverySize) {
   std::vector<CanFrame> arrived;
   for (std::size_t i = 0; i < frames.size(); i += 64) {
     EXPECT_EQ(this->a().send(std::span(frames).subspan(i, 64), Instant{}), 64U);
+    EXPECT_TRUE(all_of(this->a()).empty());
     const std::vector<CanFrame> some = all_of(this->b());
     arrived.insert(arrived.end(), some.begin(), some.end());
   }
@@ -143,19 +145,45 @@ TYPED_TEST(CanBusContract, IsActiveFromTheStart) {
   EXPECT_EQ(this->a().counters().receive_dropped, 0U);
 }
 
+TYPED_TEST(CanBusContract, ConfirmsWhatHasLeftOnceItLooks) {
+  this->a().send(numbered(5), Instant{});
+  EXPECT_TRUE(all_of(this->a()).empty());
+  EXPECT_EQ(this->a().counters().confirmed, 5U);
+}
+
+TYPED_TEST(CanBusContract, ArrivalsLieBetweenTheLastReceiveAndNow) {
+  std::array<ReceivedFrame, 50> frames;
+  Instant before{};
+  this->b().receive(frames, before);
+  for (int cycle = 1; cycle < 20; ++cycle) {
+    const Instant now(std::chrono::milliseconds(2 * cycle));
+    this->a().send(numbered(3), before);
+    ASSERT_EQ(this->b().receive(frames, now), 3U);
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_GE(frames[i].at, before);
+      EXPECT_LE(frames[i].at, now);
+    }
+    EXPECT_EQ(this->a().receive(frames, now), 0U);
+    before = now;
+  }
+}
+
 TYPED_TEST(CanBusContract, UnderAFloodKeepsTheOldestAndCountsTheRest) {
   const std::vector<CanFrame> frames = numbered(4000);
   for (std::size_t i = 0; i < frames.size(); i += 100) {
     this->a().send(std::span(frames).subspan(i, 100), Instant{});
+    EXPECT_TRUE(all_of(this->a()).empty());
   }
-  EXPECT_EQ(this->a().counters().sent + this->a().counters().send_dropped, frames.size());
+  this->a().send({}, Instant(std::chrono::seconds(1)));  // what still waits is too old by now
+  const BusCounters sent = this->a().counters();
+  EXPECT_EQ(sent.sent + sent.send_dropped + sent.send_replaced, frames.size());
   std::vector<CanFrame> arrived = all_of(this->b());
   ASSERT_FALSE(arrived.empty());
   ASSERT_LT(arrived.size(), frames.size());
   EXPECT_TRUE(std::equal(arrived.begin(), arrived.begin() + 16, frames.begin()));
 
   // A socket tells its losses with the next frame that gets through.
-  this->a().send(numbered(1), Instant{});
+  this->a().send(numbered(1), Instant(std::chrono::seconds(1)));
   all_of(this->b());
   EXPECT_EQ(this->b().counters().received + this->b().counters().receive_dropped, this->a().counters().sent);
 }

@@ -1,9 +1,12 @@
 #include "hal/linux/lock_step.hpp"
 
 #include <gtest/gtest.h>
+#include <linux/can/error.h>
 #include <sys/socket.h>
 
 #include <array>
+#include <atomic>
+#include <csignal>
 #include <thread>
 #include <vector>
 
@@ -138,6 +141,66 @@ TEST_F(LockStepTest, CountsFramesThatItsQueueCannotHold) {
   }
   EXPECT_EQ(step_.counters().receive_dropped, 64U);
   EXPECT_EQ(step_.counters().received, LockStep::kQueueFrames);
+}
+
+TEST_F(LockStepTest, GoesOnWithoutWaitingWhileTheBusIsOff) {
+  step_.send({&kSync, 1}, Instant{});
+  can_frame off{};
+  off.can_id = CAN_ERR_FLAG | CAN_ERR_BUSOFF;
+  off.can_dlc = CAN_ERR_DLC;
+  std::thread peer([&] { ASSERT_GT(write(fds_[1], &off, sizeof off), 0); });
+  step_.sleep_until(next_);
+  peer.join();
+  EXPECT_EQ(step_.now(), next_);
+  EXPECT_FALSE(step_.stalled());
+  EXPECT_EQ(step_.state(), BusState::kOff);
+}
+
+TEST_F(LockStepTest, ASyncThatGoesOutLaterIsWaitedForThen) {
+  while (bus_.send({&kSync, 1}, Instant{}) == 1) {
+  }
+  impatient_.sleep_until(next_);
+  EXPECT_FALSE(impatient_.stalled());
+  std::array<ReceivedFrame, 64> frames;
+  while (peer_.receive(frames, Instant{}) > 0) {
+  }
+  EXPECT_EQ(impatient_.send({}, next_), 0U);
+  impatient_.sleep_until(next_ + milliseconds(2));
+  EXPECT_TRUE(impatient_.stalled()) << "the SYNC that was left over is out, and nobody answers";
+}
+
+TEST_F(LockStepTest, SomebodyInAHurryEndsAWaitForSilentDrives) {
+  step_.send({&kSync, 1}, Instant{});
+  step_.interrupt();
+  step_.sleep_until(next_);
+  EXPECT_TRUE(step_.stalled()) << "after a second, not after five minutes";
+}
+
+TEST_F(LockStepTest, SomebodyInAHurryDoesNotEndAWaitThatDrivesAnswer) {
+  step_.send({&kSync, 1}, Instant{});
+  step_.interrupt();
+  answer({0x181, 0x182, 0x183, 0x184});
+  step_.sleep_until(next_);
+  EXPECT_FALSE(step_.stalled());
+}
+
+TEST_F(LockStepTest, ASignalDuringAWaitIsAHurry) {
+  struct sigaction nothing {};
+  nothing.sa_handler = [](int) {};
+  ASSERT_EQ(sigaction(SIGUSR1, &nothing, nullptr), 0);
+  step_.send({&kSync, 1}, Instant{});
+  std::atomic<bool> over{false};
+  const pthread_t waiting = pthread_self();
+  std::thread person([&] {
+    while (!over.load()) {
+      pthread_kill(waiting, SIGUSR1);
+      std::this_thread::sleep_for(milliseconds(20));
+    }
+  });
+  step_.sleep_until(next_);
+  over.store(true);
+  person.join();
+  EXPECT_TRUE(step_.stalled());
 }
 
 }  // namespace
