@@ -11,10 +11,12 @@ TurnMeasure::Scale TurnMeasure::scale_of(const DriveParameters& drive) noexcept 
           .counts_per_rad = motor * drive.counts_per_turn / (2.0 * std::numbers::pi)};
 }
 
-void TurnMeasure::begin(Wheel wheel, const Scale& scale, const std::array<double, kWheels>& angles_rad) noexcept {
+void TurnMeasure::begin(Wheel wheel, const Scale& scale, double expected,
+                        const std::array<double, kWheels>& angles_rad) noexcept {
   *this = TurnMeasure();
   wheel_ = wheel;
   scale_ = scale;
+  expected_ = expected;
   begin_rad_ = angles_rad[static_cast<std::size_t>(wheel)];
   others_from_rad_ = angles_rad;
 }
@@ -79,7 +81,7 @@ void TurnMeasure::look_for_oddness(const Cycle& cycle) noexcept {
   const double margin_rad = kTooFastMarginRad + 2.0 / std::abs(scale_.counts_per_rad);
   const double told_rad = result_.told_rad - told_from_rad_;
   const double went_rad = result_.rad - from_rad_;
-  if (std::abs(result_.rad - oldest.rad) > kTooFast * peak_radps_ * window_s + margin_rad) {
+  if (std::abs(result_.rad - oldest.rad) > kTooFast * expected_ * peak_radps_ * window_s + margin_rad) {
     remark(TurnNote::kTooFast, wheel_);
   } else if (went_rad * told_rad < 0.0 && std::abs(went_rad) > margin_rad) {
     remark(TurnNote::kAgainst, wheel_);

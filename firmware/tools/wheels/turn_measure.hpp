@@ -14,7 +14,7 @@ namespace ivo::firmware {
 /// What stops a wheel at once; it turns again after the key was let go.
 enum class TurnNote : std::uint8_t {
   kNone,
-  kTooFast,     ///< by its position more than twice as fast as told
+  kTooFast,     ///< by its position more than twice as fast as told, or as expected
   kStays,       ///< its position does not change
   kAgainst,     ///< its position counts against its velocity
   kOtherMoves,  ///< the position of another wheel changes
@@ -53,8 +53,8 @@ class TurnMeasure {
   };
   [[nodiscard]] static Scale scale_of(const DriveParameters& drive) noexcept;
 
-  /// Of `wheel`, from `angles_rad` on.
-  void begin(Wheel wheel, const Scale& scale, const std::array<double, kWheels>& angles_rad) noexcept;
+  /// Of `wheel`, from `angles_rad` on. `expected`: how many times as fast as told it is known to turn.
+  void begin(Wheel wheel, const Scale& scale, double expected, const std::array<double, kWheels>& angles_rad) noexcept;
 
   struct Cycle {
     Instant now{};
@@ -81,6 +81,7 @@ class TurnMeasure {
 
   Wheel wheel_ = Wheel::kFrontLeft;
   Scale scale_;
+  double expected_ = 1.0;
   double begin_rad_ = 0.0;
   Result result_;
   std::array<double, kWheels> others_from_rad_{};  // since the wheel was last told to stand

@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "drivers/canopen/cob_id.hpp"
-
 namespace ivo::firmware {
 namespace {
 
+using drivers::DriveFault;
 using drivers::DriveFaultReason;
 using drivers::GroupState;
 
@@ -21,7 +20,6 @@ Robot slow(Robot robot) noexcept {
 WheelTurner::WheelTurner(hal::CanBus& bus, const Robot& robot) noexcept
     : bus_(bus, slow(robot)),
       drives_(bus_, robot),
-      master_node_id_(robot.master_node_id),
       longest_step_(2 * robot.cycle) {
   std::ranges::transform(robot.drives, scales_.begin(), TurnMeasure::scale_of);
 }
@@ -39,14 +37,14 @@ void WheelTurner::give(const TurnOrder& order) noexcept {
   limit_reached_ = false;
   told_radps_ = 0.0;  // another wheel's
   key_.forbid();
-  measure_.begin(order.wheel, scales_[static_cast<std::size_t>(order.wheel)], wheels_.angle_rad);
+  measure_.begin(order.wheel, scales_[static_cast<std::size_t>(order.wheel)], order.expected, wheels_.angle_rad);
 }
 
-const TurnStatus& WheelTurner::cycle(Instant now, const Keys& keys) noexcept {
+const TurnStatus& WheelTurner::cycle(Instant now, std::int64_t skipped, const Keys& keys) noexcept {
   dt_ = std::min(now - now_, longest_step_);
   now_ = now;
   drain_bus();
-  wheels_ = drives_.update(now_);
+  look_at_drives(skipped);
   listen_to_keys(keys);
   measure();
   look_for_end(keys);
@@ -60,14 +58,18 @@ const TurnStatus& WheelTurner::cycle(Instant now, const Keys& keys) noexcept {
 void WheelTurner::drain_bus() noexcept {
   const std::size_t received = bus_.receive(frames_, now_);
   for (std::size_t i = 0; i < received; ++i) {
-    const hal::CanFrame& frame = frames_[i].frame;
-    // Our own frames do not come back: these are another master's.
-    const bool foreign = frame.id == drivers::cob_id::kNmt || frame.id == drivers::cob_id::kSync ||
-                         frame.id == drivers::cob_id::heartbeat(master_node_id_);
-    if (foreign && fault_.reason == DriveFaultReason::kNone) {
-      fault_ = {.reason = DriveFaultReason::kForeignMaster, .code = frame.id};
-    }
-    drives_.on_frame(frame);
+    drives_.on_frame(frames_[i]);
+  }
+}
+
+void WheelTurner::look_at_drives(std::int64_t skipped) noexcept {
+  wheels_ = drives_.update(now_);
+  if (enable_ && skipped >= rates::kLatestPeriods) {
+    const DriveFault late{.reason = DriveFaultReason::kCycleLate, .code = static_cast<std::uint32_t>(skipped)};
+    drives_.fail(late, now_);
+    wheels_.state = GroupState::kFault;
+    wheels_.fault = late;
+    wheels_.off = false;
   }
 }
 
@@ -104,14 +106,7 @@ void WheelTurner::measure() noexcept {
 }
 
 void WheelTurner::look_for_end(const Keys& keys) noexcept {
-  if (fault_.reason == DriveFaultReason::kNone) {
-    if (wheels_.state == GroupState::kFault) {
-      fault_ = wheels_.fault;
-    } else if (hal::lost(bus_.state())) {
-      fault_ = {.reason = DriveFaultReason::kBusLost, .code = static_cast<std::uint32_t>(bus_.state())};
-    }
-  }
-  if (fault_.reason != DriveFaultReason::kNone) {
+  if (wheels_.state == GroupState::kFault) {
     end(TurnEnd::kFault);
   } else if (keys.end) {
     end(TurnEnd::kAsked);
@@ -188,7 +183,7 @@ void WheelTurner::publish() noexcept {
              .limit_reached = limit_reached_,
              .turned = measure_.result(),
              .end = end_,
-             .fault = fault_,
+             .fault = wheels_.fault,
              .power_off = wheels_.off,
              .bus = bus_.counters(),
              .bus_state = bus_.state(),

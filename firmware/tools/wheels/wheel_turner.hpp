@@ -22,6 +22,7 @@ struct TurnOrder {
   Wheel wheel = Wheel::kFrontLeft;
   double radps = 0.0;      ///< at the wheel, positive forward; held within WheelTurner::kFastestRadps, 0 when no number
   double limit_rad = 0.0;  ///< by the drive's position, from the order on: stops there by itself; 0: none
+  double expected = 1.0;   ///< times as fast as told, by its position, it was seen to turn: more than twice is too fast
 };
 
 enum class TurnPhase : std::uint8_t {
@@ -84,13 +85,15 @@ class WheelTurner {
     bool other = false;  ///< another key came, which is no end: somebody is there
     bool end = false;    ///< stop, power off, end
   };
-  const TurnStatus& cycle(Instant now, const Keys& keys) noexcept;
+  /// `skipped`: periods lost before it; rates::kLatestPeriods of them under power are a fault.
+  const TurnStatus& cycle(Instant now, std::int64_t skipped, const Keys& keys) noexcept;
 
   [[nodiscard]] bool ended() const noexcept { return status_.phase == TurnPhase::kEnded; }
   [[nodiscard]] const TurnStatus& status() const noexcept { return status_; }
 
  private:
   void drain_bus() noexcept;
+  void look_at_drives(std::int64_t skipped) noexcept;
   void listen_to_keys(const Keys& keys) noexcept;
   void measure() noexcept;
   void look_for_end(const Keys& keys) noexcept;
@@ -103,7 +106,6 @@ class WheelTurner {
 
   GuardedBus bus_;
   drivers::DriveGroup drives_;
-  std::uint8_t master_node_id_;
   Duration longest_step_;
   std::array<TurnMeasure::Scale, kWheels> scales_;
   DeadMan key_;
@@ -124,7 +126,6 @@ class WheelTurner {
   std::optional<Instant> last_use_;  // of the power
   TurnEnd end_ = TurnEnd::kNone;
   Instant end_at_{};
-  drivers::DriveFault fault_;
   std::array<hal::ReceivedFrame, limits::kFramesPerCycle> frames_{};
 };
 

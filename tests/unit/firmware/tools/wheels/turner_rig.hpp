@@ -42,8 +42,8 @@ class TurnerRig {
     turner.open(clock.now());
   }
 
-  const TurnStatus& cycle(const WheelTurner::Keys& keys = {}) {
-    const TurnStatus& status = turner.cycle(clock.now(), keys);
+  const TurnStatus& cycle(const WheelTurner::Keys& keys = {}, std::int64_t skipped = 0) {
+    const TurnStatus& status = turner.cycle(clock.now(), skipped, keys);
     clock.sleep_until(clock.now() + rates::kCycle);
     if (drives_run) {
       drives.update(clock.now());

@@ -271,6 +271,19 @@ TEST(WheelTurner, EndsAndSaysThatPowerIsNotKnownToBeOffWhenTheBusIsLost) {
   EXPECT_TRUE(rig.at_rest(Wheel::kRearLeft)) << "it stopped by our missing heartbeat";
 }
 
+TEST(WheelTurner, EndsWhenItsOwnCyclesAreLateUnderPower) {
+  ReadyRig rig;
+  rig.cycle({}, rates::kLatestPeriods);
+  EXPECT_EQ(rig.status().end, TurnEnd::kNone) << "power is off";
+  rig.hold(2s);
+  rig.cycle({.hold = true}, rates::kLatestPeriods - 1);
+  EXPECT_EQ(rig.status().end, TurnEnd::kNone);
+  rig.cycle({.hold = true}, rates::kLatestPeriods);
+  EXPECT_EQ(rig.status().fault.reason, DriveFaultReason::kCycleLate);
+  EXPECT_TRUE(rig.run_until(TurnPhase::kEnded));
+  EXPECT_FALSE(rig.any_power());
+}
+
 TEST(WheelTurner, AProgramThatWasSuspendedDoesNotGoOnTurning) {
   ReadyRig rig;
   rig.hold(2s);
