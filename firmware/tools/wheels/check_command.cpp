@@ -18,7 +18,7 @@ constexpr double kUsualTurns = 1.0;
 class Check {
  public:
   Check(TurnSession& session, double radps, double turns)
-      : session_(session), guide_(radps, turns), turns_(turns), robot_(session.world().robot()) {}
+      : session_(session), guide_(session.world().robot(), radps, turns), turns_(turns), robot_(session.world().robot()) {}
 
   /// False when it ended before all wheels were checked.
   bool to_the_end() {
@@ -45,18 +45,20 @@ class Check {
       if (keys.find_first_not_of(" \r\n") != std::string::npos) {
         return false;
       }
-      if (keys.find(' ') != std::string::npos) {
+      const TurnStatus& status = session_.loop().status();
+      const bool odd = status.order == number && status.turned.note != TurnNote::kNone;
+      if (keys.find(' ') != std::string::npos && !odd) {  // what was odd is looked into before it turns again
         session_.loop().hold_key();
       }
-      const TurnStatus& status = session_.loop().status();
       if (status.order != number) {
         continue;
       }
-      session_.show(std::string(name_of(order.wheel)), status);
+      session_.show(status);
       if (guide_.over(status, enough)) {
+        session_.line().draw("", measured_text(status.turned));
         session_.line().end();
         if (guide_.moved(status)) {
-          say("", "once more, told less");
+          say("", "Once more, and told less");
         }
         return true;
       }
@@ -70,6 +72,8 @@ class Check {
       (void)std::printf("\n");
       say(format("%d of %d", static_cast<int>(guide_.wheel()) + 1, kWheels).c_str(),
           wheel + ": hold the space bar; it turns a little and stops by itself");
+    } else if (seen().turns_seen) {
+      say("", "That was much less than it should be, so once more, and further: hold the space bar, count the turns");
     } else {
       say("", format("Chalk a mark on it. Hold the space bar: it makes %s and stops by itself; Enter if that is enough",
                      turns_ == 1.0 ? "one turn" : format("%g turns", turns_).c_str()));
@@ -120,8 +124,7 @@ class Check {
   }
 
   bool ask_how_many() {
-    const WheelObservation& seen = guide_.observations()[static_cast<std::size_t>(guide_.wheel())];
-    const double usual = std::round(seen.turns_measured * 100.0) / 100.0;
+    const double usual = std::round(seen().turns_measured * 100.0) / 100.0;
     const auto turns = session_.ask_number(
         labelled("", format("How many turns did the mark make? A number; Enter for %g, a again ", usual)), usual);
     if (!turns) {
@@ -129,6 +132,10 @@ class Check {
     }
     *turns > 0.0 ? guide_.how_many(*turns) : guide_.again();
     return true;
+  }
+
+  [[nodiscard]] const WheelObservation& seen() const {
+    return guide_.observations()[static_cast<std::size_t>(guide_.wheel())];
   }
 
   TurnSession& session_;

@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kTurnRad = 2.0 * std::numbers::pi;
 constexpr double kMostExpected = 10'000.0;
+constexpr double kMuchLess = 1.5;
 
 // Also of a wheel that was stopped before it held its speed.
 std::optional<double> speed_ratio(const TurnMeasure::Result& turned) noexcept {
@@ -23,10 +24,16 @@ std::optional<double> speed_ratio(const TurnMeasure::Result& turned) noexcept {
 
 }  // namespace
 
+CheckGuide::CheckGuide(const Robot& robot, double radps, double turns) noexcept : radps_(radps), turns_(turns) {
+  std::ranges::transform(robot.drives, least_radps_.begin(), [](const DriveParameters& drive) {
+    return 1.0 / std::abs(TurnMeasure::scale_of(drive).units_per_radps);
+  });
+}
+
 TurnOrder CheckGuide::order() const noexcept {
   return {.wheel = wheel(),
-          .radps = radps_ / expected_,
-          .limit_rad = step_ == CheckStep::kTurnALittle ? kALittleRad : turns_ * kTurnRad,
+          .radps = std::max(radps_ / expected_, least_radps_[wheel_]),
+          .limit_rad = step_ == CheckStep::kTurnALittle ? kALittleRad : longer_ * turns_ * kTurnRad,
           .expected = expected_};
 }
 
@@ -54,6 +61,9 @@ bool CheckGuide::moved(const TurnStatus& status) noexcept {
     now().note_wheel = turned.note_wheel;
   }
   now().speed_ratio = speed_ratio(turned);
+  if (slower_ > 0 && now().speed_ratio) {
+    expected_ = std::clamp(std::abs(*now().speed_ratio), 1.0, kMostExpected);
+  }
   if (step_ == CheckStep::kTurnALittle) {
     step_ = CheckStep::kWhichWheel;
   } else {
@@ -83,6 +93,12 @@ void CheckGuide::forward(bool it_did) noexcept {
 
 void CheckGuide::how_many(double turns) noexcept {
   now().turns_seen = turns;
+  const double short_by = longer_ * turns_ / turns;
+  if (longer_ == 1.0 && short_by > kMuchLess) {
+    longer_ = std::min(short_by, kMostLonger);
+    step_ = CheckStep::kTurnRound;
+    return;
+  }
   next_wheel();
 }
 
@@ -95,6 +111,7 @@ void CheckGuide::next_wheel() noexcept {
   now().checked = true;
   expected_ = 1.0;
   slower_ = 0;
+  longer_ = 1.0;
   ++wheel_;
   step_ = wheel_ == kWheels ? CheckStep::kDone : CheckStep::kTurnALittle;
 }

@@ -25,15 +25,17 @@ struct WheelObservation {
 enum class CheckStep : std::uint8_t { kTurnALittle, kWhichWheel, kForward, kTurnRound, kHowManyTurns, kDone };
 
 /// For each wheel: turn a little; which one was it, did it go forward; turn round; how many turns did it make? A wheel
-/// that turns much faster than told is told less and turned anew.
+/// that turns much faster than told is told less and turned anew; one that made much less than its turn is turned
+/// further once, for the eye tells parts of a turn badly.
 class CheckGuide {
  public:
   static constexpr double kALittleRad = 1.5;
   static constexpr double kEnoughRad = 0.3;  ///< told; less is not worth a question
   static constexpr int kSlowerTries = 3;
+  static constexpr double kMostLonger = 4.0;  ///< times as far, for a wheel that made less than its turn
 
   /// `radps` and `turns` are above 0.
-  CheckGuide(double radps, double turns) noexcept : radps_(radps), turns_(turns) {}
+  CheckGuide(const Robot& robot, double radps, double turns) noexcept;
 
   [[nodiscard]] CheckStep step() const noexcept { return step_; }
   [[nodiscard]] Wheel wheel() const noexcept { return static_cast<Wheel>(wheel_); }
@@ -60,10 +62,12 @@ class CheckGuide {
 
   double radps_;
   double turns_;
+  std::array<double, kWheels> least_radps_{};  // one unit of 60FFh
   CheckStep step_ = CheckStep::kTurnALittle;
   std::size_t wheel_ = 0;
   double expected_ = 1.0;  // times as fast as told this wheel turns
   int slower_ = 0;
+  double longer_ = 1.0;  // times as far, by its position
   std::array<WheelObservation, kWheels> seen_;
 };
 

@@ -37,7 +37,7 @@ int turn(const Options& options) {
     if (!keys.empty() && !asked) {
       loop.hold_key();
     }
-    session->show(std::string(name_of(*wheel)), loop.status());
+    session->show(loop.status());
   }
   const int ended = session->finish();
   if (const TurnMeasure::Result turned = loop.status().turned; turned.told_rad != 0.0) {

@@ -23,7 +23,7 @@ void TurnMeasure::begin(Wheel wheel, const Scale& scale, double expected,
 
 void TurnMeasure::update(const Cycle& cycle) noexcept {
   result_.told_units = static_cast<std::int32_t>(std::lround(cycle.told_radps * scale_.units_per_radps));
-  result_.told_radps = result_.told_units / scale_.units_per_radps;
+  result_.told_radps = result_.told_units == 0 ? 0.0 : result_.told_units / scale_.units_per_radps;
   result_.told_rad += result_.told_radps * seconds(cycle.dt);
   result_.rad = cycle.angles_rad[static_cast<std::size_t>(wheel_)] - begin_rad_;
   result_.counts = std::llround(result_.rad * scale_.counts_per_rad);

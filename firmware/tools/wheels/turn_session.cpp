@@ -72,7 +72,7 @@ bool TurnSession::over() noexcept {
   return stop_asked() || terminal_->closed() || (loop_ != nullptr && !loop_->running());
 }
 
-void TurnSession::show(const std::string& label, const TurnStatus& status) {
+void TurnSession::show(const TurnStatus& status) {
   const TurnNote note = status.turned.note;
   if (note != noted_) {
     noted_ = note;
@@ -82,7 +82,7 @@ void TurnSession::show(const std::string& label, const TurnStatus& status) {
     }
   }
   if (line_.due(0, 1)) {
-    line_.draw(label.c_str(), status_text(status));
+    line_.draw("", status_text(status));
   }
 }
 

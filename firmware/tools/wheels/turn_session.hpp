@@ -25,8 +25,8 @@ class TurnSession {
   [[nodiscard]] RawTerminal& terminal() noexcept { return *terminal_; }
   [[nodiscard]] LiveLine& line() noexcept { return line_; }
 
-  /// Draws what is going on, and says a note once. The number of the order that it is about is `label`'s.
-  void show(const std::string& label, const TurnStatus& status);
+  /// Draws what is going on, and says a note once.
+  void show(const TurnStatus& status);
   /// Asks and waits for one of `keys`, which is shown; none when it is to end (Ctrl-C, escape, a signal, a terminal that
   /// went away, a loop that ended).
   [[nodiscard]] std::optional<char> ask(const std::string& question, const std::string& keys);

@@ -61,9 +61,9 @@ std::string note_text(const TurnMeasure::Result& turned, Wheel wheel) {
     case TurnNote::kNone:
       break;
     case TurnNote::kTooFast:
-      return name + format(" was stopped: by its position it turns much faster than told (told %.2f turns, gone %.2f); "
-                           "velocity_per_radps too high, or counts_per_turn too low?",
-                           turned.told_rad / (2.0 * std::numbers::pi), turned.rad / (2.0 * std::numbers::pi));
+      return name + format(" was stopped: by its position it went %.2g times as far as told; velocity_per_radps too "
+                           "high, or counts_per_turn too low?",
+                           std::abs(turned.rad / turned.told_rad));
     case TurnNote::kStays:
       return name + " was stopped: it was told to turn, but its position hardly changes; wheel blocked, motor or encoder "
                     "not connected, or velocity_per_radps far too low?";

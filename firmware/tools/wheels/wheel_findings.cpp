@@ -17,19 +17,29 @@ double rounded(double value, int digits) {
   return std::round(value * scale) / scale;
 }
 
-// A ratio that was seen by eye is a whole number, or one over it, when it is near one.
-double plain_ratio(double ratio) {
+// A ratio that was seen by eye is a whole number, or one over it, when it is as near to one as the eye can tell.
+double plain_ratio(double ratio, double eye_error) {
   const double whole = std::round(ratio >= 1.0 ? ratio : 1.0 / ratio);
   const double plain = ratio >= 1.0 ? whole : 1.0 / whole;
-  return std::abs(ratio / plain - 1.0) <= kEyeError ? plain : ratio;
+  return std::abs(ratio / plain - 1.0) <= eye_error ? plain : ratio;
 }
 
-double near_whole(double value) {
+double near_whole(double value, double eye_error) {
   const double whole = std::round(value);
-  return whole > 0.0 && std::abs(value / whole - 1.0) <= kEyeError ? whole : rounded(value, 4);
+  return whole > 0.0 && std::abs(value / whole - 1.0) <= eye_error ? whole : rounded(value, 4);
 }
 
-std::string percent(double ratio) { return format("%+.1f %%", 100.0 * (ratio - 1.0)); }
+std::string percent(double ratio) {
+  const double tenths = std::round(1000.0 * (ratio - 1.0));
+  return format("%+.1f %%", tenths == 0.0 ? 0.0 : tenths / 10.0);
+}
+
+std::string speed_text(double ratio) {
+  if (ratio > 2.0 || ratio < 0.5) {
+    return format("turns %.3g times as fast as told", ratio);
+  }
+  return format("turns %.1f %% %s than told", 100.0 * std::abs(ratio - 1.0), ratio > 1.0 ? "faster" : "slower");
+}
 
 class Report {
  public:
@@ -97,15 +107,14 @@ class Report {
     }
     if (seen.speed_ratio && seen.turns_seen && (right.gear || right.velocity)) {
       const double speed = *seen.speed_ratio * *seen.turns_seen / seen.turns_measured;
-      faults.push_back(speed < 2.0 && speed > 0.5 ? "speed is " + percent(speed) + " off"
-                                                  : format("turns %.3g times as fast as told", speed));
+      faults.push_back(speed_text(speed));
     }
     std::string line = name;
     for (const std::string& fault : faults) {
       line += (line == name ? "" : "; ") + fault;
     }
     if (faults.empty()) {
-      line += format("right; speed %s, turns as they should be", percent(seen.speed_ratio.value_or(1.0)).c_str());
+      line += format("right; speed %s, sign and turns as they should be", percent(seen.speed_ratio.value_or(1.0)).c_str());
     }
     wrong_ = wrong_ || !seen.turned;
     found_.lines.push_back(line);
@@ -186,19 +195,20 @@ Correction correct(const DriveParameters& drive, const WheelObservation& seen) {
   if (!seen.turns_seen || !seen.speed_ratio || !(seen.turns_measured > 0.0) || !(*seen.speed_ratio > 0.0)) {
     return right;
   }
-  double turns = plain_ratio(*seen.turns_seen / seen.turns_measured);  // true for one measured
-  turns = std::abs(turns - 1.0) <= kEyeError ? 1.0 : turns;
-  const double speed = *seen.speed_ratio * turns;  // true for one told
+  const double eye_error = kEyeTurns / *seen.turns_seen;
+  const double seen_ratio = *seen.turns_seen / seen.turns_measured;
+  const double turns = plain_ratio(seen_ratio, eye_error);  // true for one measured
+  const double speed = *seen.speed_ratio * turns;           // true for one told
   const bool counts_off = turns != 1.0;
-  const bool speed_off = std::abs(speed - 1.0) > kSpeedError;
+  const bool speed_off = std::abs(speed - 1.0) > kSpeedError + (turns == seen_ratio ? eye_error : 0.0);
   if (counts_off && std::abs(*seen.speed_ratio - 1.0) <= kSpeedError) {
     right.gear = true;
-    right.drive.gear_ratio = near_whole(drive.gear_ratio / turns);
+    right.drive.gear_ratio = near_whole(drive.gear_ratio / turns, eye_error);
     return right;
   }
   if (counts_off) {
     right.counts = true;
-    right.drive.counts_per_turn = near_whole(drive.counts_per_turn / turns);
+    right.drive.counts_per_turn = near_whole(drive.counts_per_turn / turns, eye_error);
   }
   if (speed_off) {
     right.velocity = true;

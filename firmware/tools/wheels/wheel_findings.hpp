@@ -16,8 +16,8 @@ struct Findings {
   bool all_right = false;          ///< all four were checked and nothing is to be changed or mended
 };
 
-/// The eye counts turns to about kEyeError; a speed is known much better.
-inline constexpr double kEyeError = 0.03;
+/// The eye sees where a mark is to about this part of a turn; a speed is known to kSpeedError of itself.
+inline constexpr double kEyeTurns = 0.03;
 inline constexpr double kSpeedError = 0.02;
 
 /// Of a drive, with what was seen of the wheel that it turns.
