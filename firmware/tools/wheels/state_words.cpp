@@ -137,26 +137,6 @@ std::string_view name_of(PowerState state) noexcept {
   return "unknown state";
 }
 
-std::string_view name_of(hal::BusState state) noexcept {
-  switch (state) {
-    case hal::BusState::kActive:
-      return "active";
-    case hal::BusState::kWarning:
-      return "error warning: cable, termination or bit rate?";
-    case hal::BusState::kPassive:
-      return "error passive: cable, termination or bit rate?";
-    case hal::BusState::kUnconfirmed:
-      return "nothing that is sent leaves: no other node, another bit rate, or no cable";
-    case hal::BusState::kOff:
-      return "bus-off";
-    case hal::BusState::kDown:
-      return "down";
-    case hal::BusState::kRemoved:
-      return "removed";
-  }
-  return "unknown state";
-}
-
 std::string hexadecimal(std::uint32_t value, int digits) { return format("%0*Xh", digits, value); }
 
 std::string error_code_text(std::uint16_t code) {

@@ -9,7 +9,6 @@
 #include "config/robot.hpp"
 #include "drivers/canopen/nmt.hpp"
 #include "drivers/cia402/statusword.hpp"
-#include "hal/api/can_bus.hpp"
 
 namespace ivo::firmware {
 
@@ -22,7 +21,6 @@ namespace ivo::firmware {
 
 [[nodiscard]] std::string name_of(drivers::NmtState state);
 [[nodiscard]] std::string_view name_of(drivers::cia402::PowerState state) noexcept;
-[[nodiscard]] std::string_view name_of(hal::BusState state) noexcept;
 
 /// "7300h: sensor": what CiA 301 (table 26) and CiA 402-1 (table 5) say about an error code, of an emergency or 603Fh.
 [[nodiscard]] std::string error_code_text(std::uint16_t code);

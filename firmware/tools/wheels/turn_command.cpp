@@ -1,7 +1,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "firmware/tools/exit_status.hpp"
+#include "firmware/files/number_text.hpp"
 #include "firmware/tools/wheels/state_words.hpp"
 #include "firmware/tools/wheels/turn_session.hpp"
 #include "firmware/tools/wheels/turn_text.hpp"
@@ -10,6 +10,7 @@ namespace ivo::firmware::wheels {
 namespace {
 
 constexpr double kUsualRadps = 0.5;
+constexpr double kSlowestRadps = 0.01;
 
 }  // namespace
 
@@ -19,6 +20,10 @@ int turn(const Options& options) {
     return refuse({"no wheel is called \"" + options.wheel +
                    "\"; expected front_left, front_right, rear_left or rear_right"});
   }
+  const double radps = options.radps.value_or(kUsualRadps);
+  if (std::abs(radps) < kSlowestRadps) {
+    return refuse({"--radps: " + shortest(radps) + "; expected other than 0, as 0.5 or -0.5"});
+  }
   int status = 0;
   const std::unique_ptr<TurnSession> session = TurnSession::begin(options, "turn", status);
   if (session == nullptr) {
@@ -26,7 +31,6 @@ int turn(const Options& options) {
   }
   TurnLoop& loop = session->loop();
   const Robot& robot = session->world().robot();
-  const double radps = options.radps.value_or(kUsualRadps);
   say("turn", wheel_text(robot, *wheel) + format(" at %.2f rad/s, a turn in %.0f s", radps,
                                                   2.0 * std::numbers::pi / std::abs(radps)));
   loop.give({.wheel = *wheel, .radps = radps});

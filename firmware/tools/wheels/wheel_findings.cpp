@@ -196,11 +196,11 @@ Correction correct(const DriveParameters& drive, const WheelObservation& seen) {
     return right;
   }
   const double eye_error = kEyeTurns / *seen.turns_seen;
-  const double seen_ratio = *seen.turns_seen / seen.turns_measured;
-  const double turns = plain_ratio(seen_ratio, eye_error);  // true for one measured
-  const double speed = *seen.speed_ratio * turns;           // true for one told
+  const double turns = plain_ratio(*seen.turns_seen / seen.turns_measured, eye_error);  // true for one measured
+  const double speed = *seen.speed_ratio * turns;  // true for one told
   const bool counts_off = turns != 1.0;
-  const bool speed_off = std::abs(speed - 1.0) > kSpeedError + (turns == seen_ratio ? eye_error : 0.0);
+  const bool exact = turns == std::round(turns) || 1.0 / turns == std::round(1.0 / turns);
+  const bool speed_off = std::abs(speed - 1.0) > kSpeedError + (exact ? 0.0 : eye_error);
   if (counts_off && std::abs(*seen.speed_ratio - 1.0) <= kSpeedError) {
     right.gear = true;
     right.drive.gear_ratio = near_whole(drive.gear_ratio / turns, eye_error);
