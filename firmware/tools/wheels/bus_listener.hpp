@@ -18,7 +18,7 @@ namespace ivo::firmware {
 /// Of one wheel's node.
 struct HeardNode {
   std::optional<drivers::NmtState> state;
-  Instant heartbeat_at{};     ///< the last, boot-up too
+  Instant heartbeat_at{};  ///< the last, boot-up too
   std::uint64_t boot_ups = 0;
   std::optional<drivers::DriveStatus> status;  ///< of its TPDO1, if that is as the controller maps it
   Instant status_at{};
@@ -50,7 +50,9 @@ class BusListener {
     return encoders_[static_cast<std::size_t>(wheel)].angle_rad();
   }
   [[nodiscard]] const BusTraffic& traffic() const noexcept { return traffic_; }
-  [[nodiscard]] std::optional<Instant> controller_at() const noexcept { return controller_at_; }  ///< its last heartbeat
+  [[nodiscard]] std::optional<Instant> controller_at() const noexcept {
+    return controller_at_;
+  }  ///< its last heartbeat
   [[nodiscard]] std::uint64_t frames() const noexcept { return frames_; }
 
  private:

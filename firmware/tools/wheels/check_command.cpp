@@ -18,7 +18,10 @@ constexpr double kUsualTurns = 1.0;
 class Check {
  public:
   Check(TurnSession& session, double radps, double turns)
-      : session_(session), guide_(session.world().robot(), radps, turns), turns_(turns), robot_(session.world().robot()) {}
+      : session_(session),
+        guide_(session.world().robot(), radps, turns),
+        turns_(turns),
+        robot_(session.world().robot()) {}
 
   /// False when it ended before all wheels were checked.
   bool to_the_end() {

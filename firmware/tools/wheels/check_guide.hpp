@@ -15,8 +15,8 @@ struct WheelObservation {
   bool checked = false;
   std::optional<Wheel> turned;  ///< the wheel that was seen to turn; none: nobody saw one turn
   bool forward = true;
-  std::optional<double> turns_seen;  ///< of the wheel, by its mark
-  double turns_measured = 0.0;       ///< by its position, in the same time
+  std::optional<double> turns_seen;   ///< of the wheel, by its mark
+  double turns_measured = 0.0;        ///< by its position, in the same time
   std::optional<double> speed_ratio;  ///< measured by told
   TurnNote note = TurnNote::kNone;    ///< that nothing explained
   Wheel note_wheel = Wheel::kFrontLeft;
@@ -39,7 +39,9 @@ class CheckGuide {
 
   [[nodiscard]] CheckStep step() const noexcept { return step_; }
   [[nodiscard]] Wheel wheel() const noexcept { return static_cast<Wheel>(wheel_); }
-  [[nodiscard]] bool turning() const noexcept { return step_ == CheckStep::kTurnALittle || step_ == CheckStep::kTurnRound; }
+  [[nodiscard]] bool turning() const noexcept {
+    return step_ == CheckStep::kTurnALittle || step_ == CheckStep::kTurnRound;
+  }
   /// Of a turning step.
   [[nodiscard]] TurnOrder order() const noexcept;
   /// The motion of a turning step is over, and power off: at its end, stopped by a note, or let go after a bit.

@@ -1,5 +1,6 @@
-// A held key as a dead-man's switch. A terminal tells no key's release: it repeats the key while it is held, first after
-// a pause of a quarter to one second, then some 30 times a second. So held is what is repeated, and silence is released.
+// A held key as a dead-man's switch. A terminal tells no key's release: it repeats the key while it is held, first
+// after a pause of a quarter to one second, then some 30 times a second. So held is what is repeated, and silence is
+// released.
 #pragma once
 
 #include <chrono>

@@ -124,8 +124,8 @@ bool NodeScan::ask_first(Node& node, std::uint8_t node_id, Instant now) noexcept
   node.asked_at = node.asked ? node.asked_at : now;
   node.asked_again = again;
   node.asked = true;
-  const hal::CanFrame request = drivers::sdo_frame(cob_id::sdo_request(node_id),
-                                                   {drivers::sdo_command::kUpload, kReadings[0].address, 0});
+  const hal::CanFrame request =
+      drivers::sdo_frame(cob_id::sdo_request(node_id), {drivers::sdo_command::kUpload, kReadings[0].address, 0});
   (void)bus_.send({&request, 1}, now);
   return true;
 }

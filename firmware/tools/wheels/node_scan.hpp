@@ -29,8 +29,8 @@ enum class ScanObject : std::uint8_t {
 inline constexpr std::size_t kScanObjects = 8;
 
 struct ScannedNode {
-  bool answered = false;  ///< an SDO request
-  bool booted = false;    ///< a boot-up message
+  bool answered = false;                   ///< an SDO request
+  bool booted = false;                     ///< a boot-up message
   std::optional<drivers::NmtState> state;  ///< by its last heartbeat
   std::array<std::optional<std::uint32_t>, kScanObjects> values{};
 
@@ -47,7 +47,7 @@ class NodeScan {
   static constexpr std::size_t kNodes = 127;
   static constexpr Duration kListen = std::chrono::milliseconds(500);
   static constexpr Duration kPatience = std::chrono::milliseconds(600);  ///< with the first answer, asked twice
-  static constexpr int kRequestsPerCycle = 4;                           ///< a quarter of a bus at 1 Mbit/s
+  static constexpr int kRequestsPerCycle = 4;                            ///< a quarter of a bus at 1 Mbit/s
 
   using NodeIds = std::bitset<kNodes + 1>;
   [[nodiscard]] static NodeIds everyone() noexcept;

@@ -14,8 +14,8 @@ namespace {
 
 using drivers::cia402::PowerState;
 
-constexpr std::array<const char*, 10> kHeading{"node",     "wheel",  "NMT",   "profile", "vendor", "product",
-                                               "revision", "serial", "modes", "power"};
+constexpr std::array<const char*, 10> kHeading{"node",    "wheel",    "NMT",    "profile", "vendor",
+                                               "product", "revision", "serial", "modes",   "power"};
 using Row = std::array<std::string, kHeading.size()>;
 
 std::string drive_text(const Robot& robot, Wheel wheel) {

@@ -140,8 +140,8 @@ std::string_view name_of(PowerState state) noexcept {
 std::string hexadecimal(std::uint32_t value, int digits) { return format("%0*Xh", digits, value); }
 
 std::string error_code_text(std::uint16_t code) {
-  const auto* const found = std::ranges::find_if(
-      kErrorWords, [code](const ErrorWords& entry) { return (code & entry.mask) == entry.code; });
+  const auto* const found =
+      std::ranges::find_if(kErrorWords, [code](const ErrorWords& entry) { return (code & entry.mask) == entry.code; });
   const std::string number = hexadecimal(code, 4);
   return found == kErrorWords.end() ? number : number + ": " + std::string(found->words);
 }

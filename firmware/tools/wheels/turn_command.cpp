@@ -17,8 +17,8 @@ constexpr double kSlowestRadps = 0.01;
 int turn(const Options& options) {
   const std::optional<Wheel> wheel = wheel_called(options.wheel);
   if (!wheel) {
-    return refuse({"no wheel is called \"" + options.wheel +
-                   "\"; expected front_left, front_right, rear_left or rear_right"});
+    return refuse(
+        {"no wheel is called \"" + options.wheel + "\"; expected front_left, front_right, rear_left or rear_right"});
   }
   const double radps = options.radps.value_or(kUsualRadps);
   if (std::abs(radps) < kSlowestRadps) {
@@ -31,8 +31,8 @@ int turn(const Options& options) {
   }
   TurnLoop& loop = session->loop();
   const Robot& robot = session->world().robot();
-  say("turn", wheel_text(robot, *wheel) + format(" at %.2f rad/s, a turn in %.0f s", radps,
-                                                  2.0 * std::numbers::pi / std::abs(radps)));
+  say("turn", wheel_text(robot, *wheel) +
+                  format(" at %.2f rad/s, a turn in %.0f s", radps, 2.0 * std::numbers::pi / std::abs(radps)));
   loop.give({.wheel = *wheel, .radps = radps});
   bool asked = false;
   while (!session->over() && !asked) {

@@ -1,4 +1,5 @@
-// The wheel turner in a thread of its own, cycle by cycle in the world's time, and its ends towards the terminal's thread.
+// The wheel turner in a thread of its own, cycle by cycle in the world's time, and its ends towards the terminal's
+// thread.
 #pragma once
 
 #include <atomic>

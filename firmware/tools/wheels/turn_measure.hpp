@@ -27,9 +27,9 @@ class TurnMeasure {
   static constexpr Duration kWindow = std::chrono::milliseconds(200);
   static constexpr Duration kSteadyAfter = std::chrono::milliseconds(500);  ///< at one speed, before it is measured
   static constexpr double kTooFast = 2.0;
-  static constexpr double kTooFastMarginRad = 0.05;  ///< in kWindow, and two counts
+  static constexpr double kTooFastMarginRad = 0.05;               ///< in kWindow, and two counts
   static constexpr Duration kForgives = std::chrono::seconds(1);  ///< a drive that slows down late
-  static constexpr double kStaysAfterRad = 0.5;      ///< told to go so far, and gone no tenth of it
+  static constexpr double kStaysAfterRad = 0.5;                   ///< told to go so far, and gone no tenth of it
   static constexpr double kOtherRad = 0.2;
 
   struct Result {

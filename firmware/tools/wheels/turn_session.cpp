@@ -55,8 +55,8 @@ std::unique_ptr<TurnSession> TurnSession::begin(const Options& options, const ch
     return nullptr;
   }
   session->terminal_ = std::make_unique<RawTerminal>();
-  const std::optional<char> blocks = session->ask(
-      labelled("blocks", "Does the base stand on blocks, all four wheels in the air? [y/n] "), "yn");
+  const std::optional<char> blocks =
+      session->ask(labelled("blocks", "Does the base stand on blocks, all four wheels in the air? [y/n] "), "yn");
   if (blocks != 'y') {
     status = exit_status::kNoConsent;
     session->terminal_.reset();
@@ -165,8 +165,8 @@ int TurnSession::finish() {
     say("ended", "nobody pressed a key for five minutes");
   }
   if (status.refused_frames > 0) {
-    say("refused", format("%llu frames that this tool may not send",
-                          static_cast<unsigned long long>(status.refused_frames)));
+    say("refused",
+        format("%llu frames that this tool may not send", static_cast<unsigned long long>(status.refused_frames)));
   }
   if (status.power_off) {
     say("power", "off on all four drives");
@@ -174,7 +174,7 @@ int TurnSession::finish() {
     say("power", "NOT KNOWN TO BE OFF: a drive does not say so. Keep away from the wheels and cut the supply");
   }
   return status.end == TurnEnd::kAsked && status.power_off && !asked_by_signal ? exit_status::kEnded
-                                                                             : exit_status::kFaultOrStop;
+                                                                               : exit_status::kFaultOrStop;
 }
 
 }  // namespace ivo::firmware::wheels

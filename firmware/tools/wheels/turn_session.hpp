@@ -27,8 +27,8 @@ class TurnSession {
 
   /// Draws what is going on, and says a note once.
   void show(const TurnStatus& status);
-  /// Asks and waits for one of `keys`, which is shown; none when it is to end (Ctrl-C, escape, a signal, a terminal that
-  /// went away, a loop that ended).
+  /// Asks and waits for one of `keys`, which is shown; none when it is to end (Ctrl-C, escape, a signal, a terminal
+  /// that went away, a loop that ended).
   [[nodiscard]] std::optional<char> ask(const std::string& question, const std::string& keys);
   /// Asks for a number above 0, or 'a'; Enter is `usual`. None when it is to end, 0 for 'a'.
   [[nodiscard]] std::optional<double> ask_number(const std::string& question, double usual);

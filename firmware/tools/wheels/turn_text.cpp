@@ -28,8 +28,7 @@ std::string waiting_text(const TurnStatus& status, const char* power) {
 }  // namespace
 
 std::string wheel_text(const Robot& robot, Wheel wheel) {
-  return std::string(name_of(wheel)) +
-         format(" (node %d)", int{robot.drives[static_cast<std::size_t>(wheel)].node_id});
+  return std::string(name_of(wheel)) + format(" (node %d)", int{robot.drives[static_cast<std::size_t>(wheel)].node_id});
 }
 
 std::string status_text(const TurnStatus& status) {
@@ -61,15 +60,18 @@ std::string note_text(const TurnMeasure::Result& turned, Wheel wheel) {
     case TurnNote::kNone:
       break;
     case TurnNote::kTooFast:
-      return name + format(" was stopped: by its position it went %.2g times as far as told; velocity_per_radps too "
-                           "high, or counts_per_turn too low?",
-                           std::abs(turned.rad / turned.told_rad));
+      return name + format(
+                        " was stopped: by its position it went %.2g times as far as told; velocity_per_radps too "
+                        "high, or counts_per_turn too low?",
+                        std::abs(turned.rad / turned.told_rad));
     case TurnNote::kStays:
-      return name + " was stopped: it was told to turn, but its position hardly changes; wheel blocked, motor or encoder "
-                    "not connected, or velocity_per_radps far too low?";
+      return name +
+             " was stopped: it was told to turn, but its position hardly changes; wheel blocked, motor or encoder "
+             "not connected, or velocity_per_radps far too low?";
     case TurnNote::kAgainst:
-      return name + " was stopped: its position counts against its velocity; polarity of the encoder, or 607Eh of the "
-                    "drive?";
+      return name +
+             " was stopped: its position counts against its velocity; polarity of the encoder, or 607Eh of the "
+             "drive?";
     case TurnNote::kOtherMoves:
       return name + " was stopped: the position of " + std::string(name_of(turned.note_wheel)) +
              " changed; encoders exchanged, or was it turned by hand?";

@@ -31,11 +31,11 @@ std::string emergency_text(const HeardNode& node, Instant now) {
 
 std::string bus_line(const BusListener& heard, const BusView& bus, Instant now) {
   const BusTraffic& traffic = heard.traffic();
-  std::string line = std::string(name_of(bus.state)) +
-                     format("; load %.1f %%, %.0f frames/s, SYNC %.0f/s; controller %s", 100.0 * traffic.load,
-                            traffic.frames_per_s, traffic.syncs_per_s,
-                            heard.controller_at() ? ("heard " + age_text(*heard.controller_at(), now) + " ago").c_str()
-                                                  : "not heard");
+  std::string line =
+      std::string(name_of(bus.state)) +
+      format("; load %.1f %%, %.0f frames/s, SYNC %.0f/s; controller %s", 100.0 * traffic.load, traffic.frames_per_s,
+             traffic.syncs_per_s,
+             heard.controller_at() ? ("heard " + age_text(*heard.controller_at(), now) + " ago").c_str() : "not heard");
   if (bus.counters.receive_dropped > 0) {
     line += format("; %llu frames lost", static_cast<unsigned long long>(bus.counters.receive_dropped));
   }
@@ -63,10 +63,9 @@ std::string wheel_line(const BusListener& heard, const Robot& robot, Wheel wheel
 }  // namespace
 
 std::vector<std::string> watch_picture(const BusListener& heard, const Robot& robot, const BusView& bus, Instant now) {
-  std::vector<std::string> lines{
-      bus_line(heard, bus, now), "",
-      format("%-11s  %4s  %-15s  %-22s  %-5s  %9s %7s %7s  %9s  %s", "wheel", "node", "NMT", "power", "6041h", "turns",
-             "told", "rad/s", "heartbeat", "last emergency")};
+  std::vector<std::string> lines{bus_line(heard, bus, now), "",
+                                 format("%-11s  %4s  %-15s  %-22s  %-5s  %9s %7s %7s  %9s  %s", "wheel", "node", "NMT",
+                                        "power", "6041h", "turns", "told", "rad/s", "heartbeat", "last emergency")};
   for (int wheel = 0; wheel < kWheels; ++wheel) {
     lines.push_back(wheel_line(heard, robot, static_cast<Wheel>(wheel), now));
   }
@@ -79,8 +78,7 @@ void ChangeLog::update(const BusListener& heard, const BusView& bus, Instant now
     say_("bus: " + std::string(name_of(bus.state)));
   }
   if (bus.counters.receive_dropped != lost_) {
-    say_(format("bus: %llu frames lost",
-                static_cast<unsigned long long>(bus.counters.receive_dropped - lost_)));
+    say_(format("bus: %llu frames lost", static_cast<unsigned long long>(bus.counters.receive_dropped - lost_)));
     lost_ = bus.counters.receive_dropped;
   }
   const bool controller =

@@ -114,7 +114,8 @@ class Report {
       line += (line == name ? "" : "; ") + fault;
     }
     if (faults.empty()) {
-      line += format("right; speed %s, sign and turns as they should be", percent(seen.speed_ratio.value_or(1.0)).c_str());
+      line +=
+          format("right; speed %s, sign and turns as they should be", percent(seen.speed_ratio.value_or(1.0)).c_str());
     }
     wrong_ = wrong_ || !seen.turned;
     found_.lines.push_back(line);
@@ -197,7 +198,7 @@ Correction correct(const DriveParameters& drive, const WheelObservation& seen) {
   }
   const double eye_error = kEyeTurns / *seen.turns_seen;
   const double turns = plain_ratio(*seen.turns_seen / seen.turns_measured, eye_error);  // true for one measured
-  const double speed = *seen.speed_ratio * turns;  // true for one told
+  const double speed = *seen.speed_ratio * turns;                                       // true for one told
   const bool counts_off = turns != 1.0;
   const bool exact = turns == std::round(turns) || 1.0 / turns == std::round(1.0 / turns);
   const bool speed_off = std::abs(speed - 1.0) > kSpeedError + (exact ? 0.0 : eye_error);

@@ -18,9 +18,7 @@ Robot slow(Robot robot) noexcept {
 }  // namespace
 
 WheelTurner::WheelTurner(hal::CanBus& bus, const Robot& robot) noexcept
-    : bus_(bus, slow(robot)),
-      drives_(bus_, robot),
-      longest_step_(2 * robot.cycle) {
+    : bus_(bus, slow(robot)), drives_(bus_, robot), longest_step_(2 * robot.cycle) {
   std::ranges::transform(robot.drives, scales_.begin(), TurnMeasure::scale_of);
 }
 

@@ -1,5 +1,5 @@
-// Turns one wheel slowly while a key is held: the core of `ivo wheels turn` and `check`. Nothing in it waits, allocates,
-// throws or knows a terminal: time, frames and keys are handed in.
+// Turns one wheel slowly while a key is held: the core of `ivo wheels turn` and `check`. Nothing in it waits,
+// allocates, throws or knows a terminal: time, frames and keys are handed in.
 #pragma once
 
 #include <array>

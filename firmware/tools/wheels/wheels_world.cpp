@@ -65,7 +65,8 @@ Result<std::unique_ptr<World>> World::open(const Options& options) {
                                    : "no bus: expected --can INTERFACE, as can0, or --sim for four simulated drives"};
   }
   if (!options.simulated && !options.simulated_robot.empty()) {
-    return Error{"--sim-robot: the drives on " + options.can + " are no simulated ones; expected it together with --sim"};
+    return Error{"--sim-robot: the drives on " + options.can +
+                 " are no simulated ones; expected it together with --sim"};
   }
   const Result<Robot> robot = robot_from(options.robot);
   if (!robot) {

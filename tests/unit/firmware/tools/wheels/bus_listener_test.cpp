@@ -144,8 +144,7 @@ TEST(StateWords, NameEveryErrorCode) {
   for (int code = 0; code <= 0xFFFF; ++code) {
     EXPECT_FALSE(error_code_text(static_cast<std::uint16_t>(code)).empty());
   }
-  EXPECT_EQ(error_code_text(0x3220),
-            "3220h: DC link under-voltage: supply, fuse or emergency stop");
+  EXPECT_EQ(error_code_text(0x3220), "3220h: DC link under-voltage: supply, fuse or emergency stop");
   EXPECT_EQ(error_code_text(0x8130), "8130h: heartbeat lost: the controller's, or node guarding");
   EXPECT_EQ(error_code_text(0xFF42), "FF42h: the maker's own code, see the drive's manual");
   EXPECT_EQ(modes_text(0x3ED), "PP PV TQ HM IP CSP CSV* CST");

@@ -103,7 +103,8 @@ TEST(WheelCheck, FindsExchangedNodeIds) {
   Robot base = geared_robot();
   std::swap(base.drives[2].node_id, base.drives[3].node_id);
   const Findings found = Technician(geared_robot(), base).check();
-  EXPECT_EQ(text_of(found.toml), "[drive.rear_left]\nnode_id = 4  # was 3\n\n[drive.rear_right]\nnode_id = 3  # was 4\n");
+  EXPECT_EQ(text_of(found.toml),
+            "[drive.rear_left]\nnode_id = 4  # was 3\n\n[drive.rear_right]\nnode_id = 3  # was 4\n");
 }
 
 TEST(WheelCheck, FindsACycleOfNodeIdsWithSignsThatGoWithTheWheel) {
@@ -149,8 +150,7 @@ TEST(WheelCheck, FindsASpeedThatIsAFewPercentOff) {
   const Findings found = Technician(geared_robot(), base).check();
   ASSERT_EQ(found.toml.size(), 2U);
   EXPECT_NEAR(std::stod(found.toml[1].substr(std::string("velocity_per_radps = ").size())), 651.8986469 * 1.05, 0.7);
-  EXPECT_NE(text_of(found.lines).find("% slower than told"), std::string::npos)
-      << text_of(found.lines);
+  EXPECT_NE(text_of(found.lines).find("% slower than told"), std::string::npos) << text_of(found.lines);
 }
 
 TEST(WheelCheck, FindsRevolutionsAMinuteWhereTheFileHasCounts) {
@@ -174,7 +174,8 @@ TEST(WheelCheck, NamesAWheelWhosePositionStays) {
 TEST(WheelFindings, TellNoNodeIdsFromAnswersThatContradictEachOther) {
   std::array<WheelObservation, kWheels> seen;
   for (WheelObservation& wheel : seen) {
-    wheel = {.checked = true, .turned = Wheel::kFrontLeft, .turns_seen = 1.0, .turns_measured = 1.0, .speed_ratio = 1.0};
+    wheel = {
+        .checked = true, .turned = Wheel::kFrontLeft, .turns_seen = 1.0, .turns_measured = 1.0, .speed_ratio = 1.0};
   }
   const Findings found = findings_of(geared_robot(), seen);
   EXPECT_FALSE(found.all_right);

@@ -67,9 +67,7 @@ TEST(DeadMan, TakesNoPastedTextForHolding) {
   EXPECT_TRUE(held_at(keys, 5000ms).empty());
 }
 
-TEST(DeadMan, TakesManyKeysAtOnceForOne) {
-  EXPECT_TRUE(held_at(std::vector<Duration>(1000, 1000ms), 5000ms).empty());
-}
+TEST(DeadMan, TakesManyKeysAtOnceForOne) { EXPECT_TRUE(held_at(std::vector<Duration>(1000, 1000ms), 5000ms).empty()); }
 
 TEST(DeadMan, KeysThatWereHeldUpOnTheWayMoveNothingUntilTheKeyWasLetGo) {
   std::vector<Duration> keys = held_key(1000ms, 2000ms);
@@ -115,7 +113,8 @@ TEST(DeadMan, IsNeverHeldLongerThanSilenceAfterTheLastKey) {
     std::vector<Duration> keys;
     Duration at = 0ms;
     for (int i = 0; i < 60; ++i) {
-      at += Duration(std::chrono::milliseconds(2 * std::uniform_int_distribution<int>(1, i % 7 == 0 ? 600 : 90)(random)));
+      at +=
+          Duration(std::chrono::milliseconds(2 * std::uniform_int_distribution<int>(1, i % 7 == 0 ? 600 : 90)(random)));
       keys.push_back(at);
     }
     for (const Duration held : held_at(keys, at + 1000ms)) {

@@ -1,5 +1,5 @@
-// A wheel turner, four simulated drives that may be another base than the robot file says, and a technician's finger, in
-// simulated time.
+// A wheel turner, four simulated drives that may be another base than the robot file says, and a technician's finger,
+// in simulated time.
 #pragma once
 
 #include <gtest/gtest.h>
