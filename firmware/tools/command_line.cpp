@@ -18,6 +18,7 @@
 #include "firmware/tools/plan_options.hpp"
 #include "firmware/tools/run_options.hpp"
 #include "firmware/tools/terminal.hpp"
+#include "firmware/tools/wheels/wheels_options.hpp"
 
 namespace ivo::firmware {
 namespace {
@@ -91,20 +92,21 @@ std::string plain(const CLI::Error& error) {
   return text.find("At Most 1 required") != std::string::npos ? option + ": is given twice; expected once" : text;
 }
 
-/// What is wrong with the first word, which is a command or asks for help; empty when nothing is.
-std::string command_fault(const CLI::App& app, int argc, const char* const* argv) {
-  const std::string word = argc > 1 ? argv[1] : "";
+/// What is wrong with the word that names a command of `app`, or asks for help; empty when nothing is.
+std::string command_fault(const CLI::App& app, int argc, const char* const* argv, int place = 1) {
+  const std::string word = argc > place ? argv[place] : "";
   std::string names;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App* /*any*/) { return true; })) {
     if (command->get_name() == word) {
-      return {};
+      return place == 1 && word == "wheels" ? command_fault(*command, argc, argv, place + 1) : std::string();
     }
     names += (names.empty() ? "" : ", ") + command->get_name();
   }
   if (word == "-h" || word == "--help") {
     return {};
   }
-  return (argc > 1 ? "no command is called \"" + word + "\"" : "no command") + "; expected " + names;
+  const std::string of = place == 1 ? "" : " of " + app.get_name();
+  return (argc > place ? "no command" + of + " is called \"" + word + "\"" : "no command" + of) + "; expected " + names;
 }
 
 CLI::App* add_plan(CLI::App& app, PlanOptions& options, std::optional<int>& threads) {
@@ -144,6 +146,31 @@ CLI::App* add_bench(CLI::App& app, bench::CommandOptions& options) {
   command->add_option("--data", options.bench.data, "Folder with dubai/ and sarenv/, for compare and scale")
       ->check(CLI::ExistingDirectory);
   return command;
+}
+
+// In the order in which add_wheels adds them.
+constexpr std::array kWheelsCommands{&wheels::list, &wheels::watch, &wheels::turn, &wheels::check};
+
+CLI::App* add_wheels(CLI::App& app, wheels::Options& options) {
+  CLI::App* wheels = app.add_subcommand("wheels", "Look at the wheel drives and try them, wheel by wheel");
+  wheels->require_subcommand(1);
+  CLI::App* list = wheels->add_subcommand("list", "Who is on the bus; reads, writes nothing");
+  CLI::App* watch = wheels->add_subcommand("watch", "What the drives say; sends nothing");
+  CLI::App* turn = wheels->add_subcommand("turn", "Turn one wheel slowly while the space bar is held");
+  CLI::App* check = wheels->add_subcommand("check", "Check node-ids, signs and units, wheel by wheel");
+  for (CLI::App* command : {list, watch, turn, check}) {
+    command->add_option("--can", options.can, "CAN interface, as can0 or vcan0")->check(not_empty);
+    command->add_option("--robot", options.robot, "Robot file (default: as config/robots/ivo.toml)")->check(not_empty);
+    command->add_flag("--sim", options.simulated, "Four simulated drives in this process, instead of --can");
+    command->add_option("--sim-robot", options.simulated_robot, "Robot file that the simulated drives are made by")
+        ->check(not_empty);
+  }
+  add_number(*watch, "--seconds", options.seconds, 0.1, 1e9, "How long; without it until Ctrl-C");
+  turn->add_option("WHEEL", options.wheel, "front_left, front_right, rear_left or rear_right")->required();
+  add_number(*turn, "--radps", options.radps, -2.0, 2.0, "At the wheel, below 0 backward (default 0.5)");
+  add_number(*check, "--radps", options.radps, 0.05, 2.0, "At the wheel (default 0.5)");
+  add_number(*check, "--turns", options.turns, 0.25, 20.0, "Of each wheel, to count: more is more exact (default 1)");
+  return wheels;
 }
 
 }  // namespace
@@ -187,6 +214,8 @@ int command_line(int argc, const char* const* argv) {
   CLI::App* const score_command = add_score(app, score_options);
   bench::CommandOptions bench_options;
   CLI::App* const bench_command = add_bench(app, bench_options);
+  wheels::Options wheels_options;
+  CLI::App* const wheels_command = add_wheels(app, wheels_options);
 
   if (const std::string fault = command_fault(app, argc, argv); !fault.empty()) {
     return refuse({fault});
@@ -205,6 +234,11 @@ int command_line(int argc, const char* const* argv) {
   }
   if (bench_command->parsed()) {
     return bench::run(bench_options);
+  }
+  if (wheels_command->parsed()) {
+    const auto commands = wheels_command->get_subcommands([](const CLI::App* /*any*/) { return true; });
+    const auto asked = std::ranges::find_if(commands, [](const CLI::App* command) { return command->parsed(); });
+    return kWheelsCommands[static_cast<std::size_t>(asked - commands.begin())](wheels_options);
   }
   run_options.lock_step = clock == "sync";
   return run(run_options);

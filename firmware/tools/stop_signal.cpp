@@ -47,6 +47,15 @@ void stop_on_signals() {
   (void)sigaction(SIGPIPE, &action, nullptr);
 }
 
+void stop_on_all_signals() {
+  stop_on_signals();
+  struct sigaction action {};
+  action.sa_handler = on_signal;
+  for (const int number : {SIGQUIT, SIGTSTP}) {
+    (void)sigaction(number, &action, nullptr);
+  }
+}
+
 bool stop_asked() noexcept { return asked.load(); }
 
 }  // namespace ivo::firmware

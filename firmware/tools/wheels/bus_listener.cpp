@@ -1,0 +1,95 @@
+#include "firmware/tools/wheels/bus_listener.hpp"
+
+#include <algorithm>
+
+#include "drivers/canopen/cob_id.hpp"
+#include "firmware/tools/wheels/frame_bits.hpp"
+#include "firmware/tools/wheels/turn_measure.hpp"
+
+namespace ivo::firmware {
+namespace {
+
+namespace cob_id = drivers::cob_id;
+
+constexpr Duration kCount = std::chrono::seconds(1);
+constexpr Duration kStale = std::chrono::milliseconds(200);
+
+std::array<drivers::WheelEncoder, kWheels> encoders_of(const Robot& robot) noexcept {
+  const double radius_m = robot.base.wheel_radius_m;
+  return {drivers::WheelEncoder(robot.drives[0], radius_m), drivers::WheelEncoder(robot.drives[1], radius_m),
+          drivers::WheelEncoder(robot.drives[2], radius_m), drivers::WheelEncoder(robot.drives[3], radius_m)};
+}
+
+}  // namespace
+
+BusListener::BusListener(const Robot& robot) noexcept : robot_(robot), encoders_(encoders_of(robot)) {}
+
+void BusListener::on_frame(const hal::ReceivedFrame& received) noexcept {
+  const hal::CanFrame& frame = received.frame;
+  ++frames_;
+  ++counted_frames_;
+  counted_bits_ += static_cast<std::uint64_t>(frame_bits(frame));
+  if (frame.id == cob_id::kSync) {
+    ++counted_syncs_;
+    return;
+  }
+  const std::uint8_t node_id = cob_id::node_of(frame.id);
+  if (frame.id == cob_id::heartbeat(robot_.master_node_id)) {
+    controller_at_ = received.at;
+  }
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    if (robot_.drives[i].node_id == node_id) {
+      take(i, received);
+    }
+  }
+}
+
+void BusListener::take(std::size_t wheel, const hal::ReceivedFrame& received) noexcept {
+  const hal::CanFrame& frame = received.frame;
+  const DriveParameters& drive = robot_.drives[wheel];
+  HeardNode& node = nodes_[wheel];
+  if (const auto state = drivers::parse_heartbeat(frame)) {
+    node.state = state;
+    node.heartbeat_at = received.at;
+    if (*state == drivers::NmtState::kBootUp) {
+      ++node.boot_ups;
+      encoders_[wheel].rebase();
+    }
+  } else if (const auto emergency = drivers::parse_emergency(frame)) {
+    node.emergency = emergency;
+    node.emergency_at = received.at;
+    ++node.emergencies;
+  } else if (frame.id == cob_id::tpdo1(drive.node_id)) {
+    if (const auto status = drivers::parse_tpdo1(frame)) {
+      node.status = status;
+      node.status_at = received.at;
+      encoders_[wheel].sample(status->position, received.at);
+    }
+  } else if (frame.id == cob_id::rpdo1(drive.node_id) && frame.size == drivers::kPdoBytes) {
+    const auto bytes = std::span<const std::uint8_t>(frame.data).subspan(2);
+    const auto target = static_cast<std::int32_t>(drivers::load<std::uint32_t>(bytes));
+    node.told_radps = target / TurnMeasure::scale_of(drive).units_per_radps;
+  }
+}
+
+void BusListener::update(Instant now) noexcept {
+  counting_since_ = counting_since_.value_or(now);
+  const Duration time = now - *counting_since_;
+  if (time < kCount) {
+    return;
+  }
+  traffic_ = {.load = static_cast<double>(counted_bits_) / (seconds(time) * robot_.bit_rate_bps),
+              .frames_per_s = static_cast<double>(counted_frames_) / seconds(time),
+              .syncs_per_s = static_cast<double>(counted_syncs_) / seconds(time)};
+  counting_since_ = now;
+  counted_frames_ = 0;
+  counted_syncs_ = 0;
+  counted_bits_ = 0;
+}
+
+double BusListener::radps(Wheel wheel, Instant now) const noexcept {
+  const auto index = static_cast<std::size_t>(wheel);
+  return now - nodes_[index].status_at > kStale ? 0.0 : encoders_[index].radps();
+}
+
+}  // namespace ivo::firmware
