@@ -179,6 +179,8 @@ int command_line(int argc, const char* const* argv) {
       ->check(not_empty);
   run_command->add_option("--clock", clock, "real, or sync: time moves when the drives have answered (with --can)")
       ->check(CLI::IsMember({"real", "sync"}));
+  run_command->add_option("--record", run_options.record, "File for every frame sent or received, as candump -L")
+      ->check(not_empty);
 
   PlanOptions plan_options;
   std::optional<int> threads;
