@@ -1,6 +1,6 @@
 #include "firmware/tools/frame_record.hpp"
 
-#include <chrono>
+#include <algorithm>
 #include <utility>
 
 namespace ivo::firmware {
@@ -8,6 +8,9 @@ namespace {
 
 // canplayer plays the record of the virtual bus onto a real one of this name.
 constexpr const char* kVirtualBus = "vcan0";
+
+// How long a frame waits to be written in real time, which is what a kill can lose.
+constexpr int kFollowMs = 20;
 
 /// What the clock on the wall says at Instant{}. Sampled once: a wall clock that is set meanwhile bends no record.
 Duration epoch_of(hal::Clock& clock) {
@@ -30,9 +33,38 @@ Result<std::unique_ptr<FrameRecord>> FrameRecord::open(const RunOptions& options
 }
 
 FrameRecord::FrameRecord(const RunOptions& options, RunWorld& world, CandumpLog log)
-    : path_(options.record), bus_(world.bus(), ring_), log_(std::move(log)) {}
+    : path_(options.record), bus_(world.bus(), ring_), log_(std::move(log)), following_(!world.own_time()) {
+  if (following_.load()) {
+    const auto every = std::chrono::milliseconds(std::clamp(static_cast<int>(kFollowMs / options.speed), 1, kFollowMs));
+    writer_ = std::thread([this, every] { follow(every); });
+  }
+}
+
+void FrameRecord::follow(std::chrono::milliseconds every) {
+  try {
+    while (following_.load(std::memory_order_relaxed)) {
+      log_.drain(ring_);
+      std::this_thread::sleep_for(every);
+    }
+  } catch (...) {  // out of memory, say: the search goes on, what the ring cannot hold is counted, close() tries again
+  }
+}
+
+void FrameRecord::stop_following() {
+  following_.store(false);
+  if (writer_.joinable()) {
+    writer_.join();
+  }
+}
+
+void FrameRecord::drain() {
+  if (!following_.load(std::memory_order_relaxed)) {
+    log_.drain(ring_);
+  }
+}
 
 Result<void> FrameRecord::close() {
+  stop_following();
   drain();
   return log_.close(ring_);
 }
