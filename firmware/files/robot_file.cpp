@@ -1,11 +1,13 @@
 #include "firmware/files/robot_file.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <limits>
 #include <string_view>
 
 #include "config/rates.hpp"
+#include "drivers/canopen/bus_load.hpp"
 #include "firmware/files/eds_file.hpp"
 #include "firmware/files/number_text.hpp"
 #include "firmware/files/robot_inputs.hpp"
@@ -57,22 +59,45 @@ MotionLimits read_limits(const TomlValue& table) {
   return limits;
 }
 
-/// At lower rates SYNC and the eight PDOs of four drives do not fit in a cycle of 2 ms.
-std::uint32_t read_bit_rate(const TomlValue& value) {
-  const std::int64_t rate = value.integer(10'000, 1'000'000);
-  if (value.present() && rate != 0 && rate != 800'000 && rate != 1'000'000) {
-    value.complain(std::to_string(rate) + " does not carry four drives at 500 Hz; expected 800000 or 1000000");
-  }
-  return static_cast<std::uint32_t>(rate);
+constexpr std::array<std::uint32_t, 8> kBitRates = {10'000,  20'000,  50'000,  125'000,
+                                                    250'000, 500'000, 800'000, 1'000'000};  // CiA 301, table 1
+
+bool fits_at(Robot robot, std::uint32_t bit_rate_bps) {
+  robot.bit_rate_bps = bit_rate_bps;
+  return drivers::fits(robot);
 }
 
-// SYNC and eight PDOs of four drives fill most of 1 ms; two shared RPDOs leave room (config/robot.hpp).
-void read_cycle(Robot& robot, const TomlValue& bus) {
+/// "800000 or 1000000"; 1 Mbit/s carries every layout at 500 Hz.
+std::string bit_rates_that_fit(const Robot& robot) {
+  std::string rates;
+  for (const std::uint32_t rate : kBitRates) {
+    if (fits_at(robot, rate)) {
+      rates += (rates.empty() ? "" : " or ") + std::to_string(rate);
+    }
+  }
+  return rates;
+}
+
+// What every cycle sends has to fit into it, on a bit rate that interfaces have (drivers/canopen/bus_load.hpp).
+void read_bus(Robot& robot, const TomlValue& bus) {
+  const TomlValue rate = bus.required("bit_rate_bps");
+  robot.bit_rate_bps = static_cast<std::uint32_t>(rate.integer(10'000, 1'000'000));
+  robot.master_node_id = static_cast<std::uint8_t>(bus.required("master_node_id").integer(1, 127));
   robot.pdo_layout = static_cast<PdoLayout>(bus.optional("pdo_layout").choice({"own", "shared"}));
   const TomlValue cycle = bus.optional("cycle_ms");
   robot.cycle = std::chrono::milliseconds(cycle.integer(1, 2, 2));
-  if (robot.cycle < rates::kCycle && (robot.pdo_layout != PdoLayout::kShared || robot.bit_rate_bps != 1'000'000)) {
+  if (robot.bit_rate_bps == 0 || robot.cycle == Duration::zero()) {
+    return;  // of these there is a complaint already
+  }
+  const bool standard = std::find(kBitRates.begin(), kBitRates.end(), robot.bit_rate_bps) != kBitRates.end();
+  if (standard && drivers::fits(robot)) {
+    return;
+  }
+  if (robot.cycle < rates::kCycle) {
     cycle.complain("1 does not fit on this bus; expected 2, or pdo_layout = \"shared\" and bit_rate_bps = 1000000");
+  } else {
+    rate.complain(std::to_string(robot.bit_rate_bps) + " does not carry four drives at 500 Hz; expected " +
+                  bit_rates_that_fit(robot));
   }
 }
 
@@ -152,10 +177,7 @@ Result<Robot> read_robot(const std::string& path) {
   robot.footprint_radius_m = root.required("footprint_radius_m").number({0.05, 2.0, "metres"});
   robot.base = read_base(root.required("base"));
   robot.limits = read_limits(root.required("limits"));
-  const TomlValue bus = root.required("bus");
-  robot.bit_rate_bps = read_bit_rate(bus.required("bit_rate_bps"));
-  robot.master_node_id = static_cast<std::uint8_t>(bus.required("master_node_id").integer(1, 127));
-  read_cycle(robot, bus);
+  read_bus(robot, root.required("bus"));
   const TomlValue drives = root.required("drive");
   for (std::size_t i = 0; i < kWheelKeys.size(); ++i) {
     robot.drives[i] = read_drive(drives.required(kWheelKeys[i]), path);

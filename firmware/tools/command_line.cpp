@@ -14,7 +14,9 @@
 #include "firmware/files/number_text.hpp"
 #include "firmware/tools/bench/bench_command.hpp"
 #include "firmware/tools/colonies.hpp"
+#include "firmware/tools/dbc_command.hpp"
 #include "firmware/tools/exit_status.hpp"
+#include "firmware/tools/load_command.hpp"
 #include "firmware/tools/plan_options.hpp"
 #include "firmware/tools/run_options.hpp"
 #include "firmware/tools/terminal.hpp"
@@ -173,6 +175,21 @@ CLI::App* add_wheels(CLI::App& app, wheels::Options& options) {
   return wheels;
 }
 
+CLI::App* add_load(CLI::App& app, LoadOptions& options) {
+  CLI::App* command = app.add_subcommand("load", "Say how full a robot's bus is, as computed and as recorded");
+  command->add_option("ROBOT", options.robot, "Robot file, as config/robots/ivo.toml")->required()->check(not_empty);
+  command->add_option("LOG", options.log, "Record of frames, as run --record or candump -L writes it")
+      ->check(not_empty);
+  return command;
+}
+
+CLI::App* add_dbc(CLI::App& app, DbcOptions& options) {
+  CLI::App* command = app.add_subcommand("dbc", "Describe a robot's bus as a DBC, for other tools");
+  command->add_option("ROBOT", options.robot, "Robot file, as config/robots/ivo.toml")->required()->check(not_empty);
+  command->add_option("--out", options.out, "File for it (default standard output)")->check(not_empty);
+  return command;
+}
+
 }  // namespace
 
 int command_line(int argc, const char* const* argv) {
@@ -206,6 +223,8 @@ int command_line(int argc, const char* const* argv) {
       ->check(not_empty);
   run_command->add_option("--clock", clock, "real, or sync: time moves when the drives have answered (with --can)")
       ->check(CLI::IsMember({"real", "sync"}));
+  run_command->add_option("--record", run_options.record, "File for every frame sent or received, as candump -L")
+      ->check(not_empty);
 
   PlanOptions plan_options;
   std::optional<int> threads;
@@ -216,6 +235,10 @@ int command_line(int argc, const char* const* argv) {
   CLI::App* const bench_command = add_bench(app, bench_options);
   wheels::Options wheels_options;
   CLI::App* const wheels_command = add_wheels(app, wheels_options);
+  LoadOptions load_options;
+  CLI::App* const load_command = add_load(app, load_options);
+  DbcOptions dbc_options;
+  CLI::App* const dbc_command = add_dbc(app, dbc_options);
 
   if (const std::string fault = command_fault(app, argc, argv); !fault.empty()) {
     return refuse({fault});
@@ -239,6 +262,12 @@ int command_line(int argc, const char* const* argv) {
     const auto commands = wheels_command->get_subcommands([](const CLI::App* /*any*/) { return true; });
     const auto asked = std::ranges::find_if(commands, [](const CLI::App* command) { return command->parsed(); });
     return kWheelsCommands[static_cast<std::size_t>(asked - commands.begin())](wheels_options);
+  }
+  if (load_command->parsed()) {
+    return load(load_options);
+  }
+  if (dbc_command->parsed()) {
+    return dbc(dbc_options);
   }
   run_options.lock_step = clock == "sync";
   return run(run_options);

@@ -13,6 +13,7 @@
 #include "firmware/loop/scheduler.hpp"
 #include "firmware/tools/event_log.hpp"
 #include "firmware/tools/exit_status.hpp"
+#include "firmware/tools/frame_record.hpp"
 #include "firmware/tools/planner_object.hpp"
 #include "firmware/tools/planner_setup.hpp"
 #include "firmware/tools/run_documents.hpp"
@@ -84,8 +85,16 @@ std::vector<std::string> names_of(const Mission& mission) {
 /// One run, seen from outside the loop: shows, asks, records, and writes what is left of it.
 class Run {
  public:
-  Run(const RunOptions& options, const RunView& view, ControlLoop& loop, RunWorld& world, EventLog log)
-      : options_(options), view_(view), loop_(loop), world_(world), log_(std::move(log)), terminal_(view) {}
+  /// `record` may be null.
+  Run(const RunOptions& options, const RunView& view, ControlLoop& loop, RunWorld& world, EventLog log,
+      FrameRecord* record)
+      : options_(options),
+        view_(view),
+        loop_(loop),
+        world_(world),
+        log_(std::move(log)),
+        record_(record),
+        terminal_(view) {}
 
   void to_the_end() {
     terminal_.show_mission(world_.description());
@@ -134,6 +143,13 @@ class Run {
     }
     const Result<void> recorded = log_.close();
     recorded ? terminal_.show_file(path_of("events.jsonl")) : note(recorded.error());
+    if (record_ != nullptr) {
+      const Result<void> closed = record_->close();
+      say("recorded", record_->summary());
+      if (!closed) {
+        note(closed.error());
+      }
+    }
     if (write_failed_) {
       return exit_status::kFaultOrStop;
     }
@@ -169,6 +185,9 @@ class Run {
   /// `wait_ms`: how long to sleep while time goes on without us.
   void observe(int wait_ms) {
     log_.drain(loop_.events());
+    if (record_ != nullptr) {
+      record_->drain();
+    }
     const LoopStatus& status = loop_.status();
     bool waited = false;
     switch (status.mode) {
@@ -281,6 +300,7 @@ class Run {
   ControlLoop& loop_;
   RunWorld& world_;
   EventLog log_;
+  FrameRecord* record_;
   RunTerminal terminal_;
   ConsentQuestion question_;
   ConsentQuestion clear_question_;
@@ -320,6 +340,10 @@ int run(const RunOptions& given) {
   if (!log) {
     return refuse(log.error());
   }
+  const Result<std::unique_ptr<FrameRecord>> record = FrameRecord::open(options, *world.value());
+  if (!record) {
+    return refuse(record.error());
+  }
   // What an earlier run left here would be taken for this one's.
   for (const char* name : {"/plan.json", "/report.json", "/search.png"}) {
     std::error_code ignored;
@@ -327,10 +351,11 @@ int run(const RunOptions& given) {
   }
 
   const SearchObject object = object_of(inputs.file.mission, planner);
-  const auto loop = std::make_unique<ControlLoop>(setup_of(inputs, object), planner, world.value()->bus());
+  hal::CanBus& bus = record.value() ? record.value()->bus() : world.value()->bus();
+  const auto loop = std::make_unique<ControlLoop>(setup_of(inputs, object), planner, bus);
   stop_on_signals(*loop);
   const RunView view{{inputs, planner}, object};
-  Run the_run(options, view, *loop, *world.value(), std::move(log).value());
+  Run the_run(options, view, *loop, *world.value(), std::move(log).value(), record.value().get());
   the_run.to_the_end();
   const int status = the_run.write_and_tell();
   running_loop.store(nullptr);

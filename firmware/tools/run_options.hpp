@@ -13,6 +13,7 @@ struct RunOptions {
   double speed = 1.0;      ///< times real time
   std::string can;         ///< interface; empty: drives simulated in this process
   bool lock_step = false;  ///< time moves when the drives have answered
+  std::string record;      ///< file for every frame sent or received; empty: none
 };
 
 /// The whole of `ivo run`. Returns the exit status: 0 ended as planned, 1 fault or stop, 2 wrong input, 3 no consent.

@@ -4,6 +4,7 @@
 In lock step, so that no time is judged by the clock of a host or guest.
 """
 
+import collections
 import os
 import re
 import subprocess
@@ -73,6 +74,24 @@ class MissionOnVcan(unittest.TestCase):
             recorded = sum(1 for _ in file)
         # Frames that the drives send after the controller has left are in the log alone.
         self.assertGreaterEqual(recorded, self.frames())
+
+    def contents_by_id(self, name):
+        """For each COB-ID the data of its frames, in order."""
+        data = collections.defaultdict(list)
+        with open(os.path.join(self.on_vcan, name), encoding="ascii") as file:
+            for line in file:
+                frame_id, content = line.split()[2].split("#")
+                data[frame_id].append(content)
+        return data
+
+    def test_the_controllers_own_record_holds_what_candump_saw(self):
+        recorded, seen = self.contents_by_id("record.log"), self.contents_by_id("bus.log")
+        self.assertEqual(sum(map(len, recorded.values())), self.frames())
+        self.assertEqual(set(recorded), set(seen))
+        for frame_id, data in recorded.items():
+            # The drives' first boot-up message comes before the controller is there.
+            before = len(seen[frame_id]) > len(data) and frame_id in ("701", "702", "703", "704")
+            self.assertEqual(data, seen[frame_id][before:before + len(data)], frame_id)
 
     def test_tshark_decodes_every_frame_as_valid_canopen(self):
         count, wrong, kinds = faults(os.path.join(self.on_vcan, "bus.log"))

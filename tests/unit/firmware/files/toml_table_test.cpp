@@ -146,6 +146,15 @@ TEST(TomlTable, ReportsASyntaxErrorByLine) {
   EXPECT_EQ(message.find('\n'), std::string::npos);
 }
 
+// Version 3.0 of the parser takes for granted that no file has these.
+TEST(TomlTable, RefusesCharactersThatTheParserDoesNotExpect) {
+  for (const std::string_view text :
+       {"a = 1\n[(]\n", "a = 1\n[[*", "a = 1\n\xEF\xBB\xBE = 2\n", "a = 1\nb\xEF\xB7\xBA = 2\n",
+        "a = 1\n[\xEF\xBB\xBE]\n", "a = 1\nb = \xEF\xAC\x80\n"}) {
+    EXPECT_EQ(complaint(text, read_speed).find("f.toml:2: not TOML: "), 0U) << text << complaint(text, read_speed);
+  }
+}
+
 TEST(TomlTable, RefusesTheSameKeyTwice) {
   const std::string message = complaint("a = 1\na = 2\n", read_speed);
   EXPECT_EQ(message.find("f.toml:2: not TOML: "), 0U) << message;
