@@ -13,8 +13,6 @@
 namespace ivo::drivers {
 namespace {
 
-constexpr std::uint8_t kSharedTargetsBytes = 8;
-constexpr std::uint8_t kControlwordBytes = 2;
 constexpr std::uint8_t kSdoBytes = 8;
 
 double share(double bits, Duration time, std::uint32_t bit_rate_bps) noexcept {
@@ -72,7 +70,7 @@ BusSchedule schedule_of(const Robot& robot) noexcept {
   }
   if (robot.pdo_layout == PdoLayout::kShared) {
     for (std::size_t first = 0; first < robot.drives.size(); first += 2) {
-      put(schedule, {cob_id::of(0x300, robot.drives[first].node_id), kSharedTargetsBytes, robot.cycle});
+      put(schedule, {cob_id::of(0x300, robot.drives[first].node_id), kTargetPairBytes, robot.cycle});
     }
   }
   put(schedule, {cob_id::heartbeat(robot.master_node_id), 1, rates::kMasterHeartbeat});
