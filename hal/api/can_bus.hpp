@@ -58,7 +58,8 @@ class CanBus {
 
   /// Hands frames to the interface in order; returns how many of them it took now. Of the rest the newest of each
   /// COB-ID (of NMT: of each node) goes out with a later call, unless it is older than rates::kTransmitAge by then: an
-  /// old velocity must not move a wheel.
+  /// old velocity must not move a wheel. A frame also waits while one of its COB-ID is on its way. So to be called each
+  /// cycle, with nothing to say too.
   virtual std::size_t send(std::span<const CanFrame> frames, Instant now) noexcept = 0;
 
   [[nodiscard]] virtual BusState state() const noexcept = 0;

@@ -21,7 +21,7 @@ namespace ivo::hal {
 using IdSet = std::bitset<0x800>;
 
 /// One send is: offer, hand the frames over in order, handed_over. NMT commands (COB-ID 0) are kept apart by node.
-/// Each call costs at most frames x slots steps. About 15 KB.
+/// Each call costs at most frames x slots steps. About 20 KB.
 class TransmitTable {
  public:
   static constexpr std::size_t kSlots = 128;  ///< COB-IDs that wait or are on their way at one time

@@ -55,6 +55,7 @@ std::vector<can_filter> filters_of(const std::vector<std::uint16_t>& ids) {
     return {{.can_id = 0, .can_mask = kPlainFrame}};
   }
   std::vector<can_filter> filters;
+  filters.reserve(ids.size());
   for (const std::uint16_t id : ids) {
     filters.push_back({.can_id = id, .can_mask = CAN_SFF_MASK | kPlainFrame});
   }

@@ -169,7 +169,7 @@ LinkAnswer ask_for_link(const std::string& name) {
   if (!socket.valid()) {
     return {};
   }
-  std::array<std::byte, kAnswerBytes> answer;
+  std::array<std::byte, kAnswerBytes> answer{};
   const ssize_t size = recv(socket.get(), answer.data(), answer.size(), 0);
   if (size <= 0) {
     return {};

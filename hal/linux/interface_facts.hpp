@@ -31,7 +31,7 @@ struct InterfaceFacts {
   std::uint16_t receive_errors = 0;
 };
 
-/// Queues longer than this hold commands for longer than a stop may take (README of the bus, txqueuelen).
+/// What is in the interface's queue cannot be called back; so many frames of 8 bytes are 4 ms at 1 Mbit/s.
 inline constexpr std::uint32_t kLongestQueueFrames = 32;
 
 /// What an RTM_NEWLINK message says; none of another or a broken one. Bytes are as the kernel sends them.

@@ -29,7 +29,7 @@ FileDescriptor changes_of_links() {
 
 // What changed is asked of the kernel; here counts only that something did, or that more did than the socket holds.
 void read_all(int socket) {
-  std::array<char, 8192> message;
+  std::array<char, 8192> message{};
   while (recv(socket, message.data(), message.size(), MSG_DONTWAIT) > 0) {
   }
 }

@@ -7,9 +7,16 @@
 
 namespace ivo::hal {
 
+ReceivedMessages::ReceivedMessages() noexcept {
+  for (std::size_t i = 0; i < kRoom; ++i) {
+    array_.headers[i].msg_hdr.msg_control = controls_[i].bytes.data();
+    array_.headers[i].msg_hdr.msg_controllen = sizeof(Control);
+  }
+}
+
 CallResult ReceivedMessages::fetch(int socket) noexcept {
   IVO_CONTRACT(empty());
-  for (std::size_t i = 0; i < kRoom; ++i) {
+  for (std::size_t i = 0; i < count_; ++i) {  // those that the kernel wrote in the last call
     array_.headers[i].msg_hdr.msg_control = controls_[i].bytes.data();
     array_.headers[i].msg_hdr.msg_controllen = sizeof(Control);
   }

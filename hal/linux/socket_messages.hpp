@@ -47,6 +47,8 @@ class ReceivedMessages {
     bool tells_lost = false;
   };
 
+  ReceivedMessages() noexcept;
+
   /// Only when empty().
   [[nodiscard]] CallResult fetch(int socket) noexcept;
   [[nodiscard]] bool empty() const noexcept { return next_ == count_; }

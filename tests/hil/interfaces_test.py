@@ -59,7 +59,9 @@ class Interfaces(unittest.TestCase):
         marks = [i for i, call in enumerate(calls) if call == "write"]
         # A guest of user-mode Linux asks its kernel for the time; elsewhere that is no call.
         between = [call for call in calls[marks[0] + 1:marks[1]] if call != "clock_gettime"]
-        self.assertEqual(between, ["recvmmsg", "sendmmsg", "clock_nanosleep"] * cycles)
+        # A cycle that ends after its deadline, on a busy host, does not sleep.
+        self.assertRegex(" ".join(between) + " ", f"^(recvmmsg sendmmsg (clock_nanosleep )?){{{cycles}}}$")
+        self.assertIn("clock_nanosleep", between)
 
 
 if __name__ == "__main__":

@@ -25,7 +25,7 @@ class Table : public testing::Test {
   std::vector<CanFrame> send(const std::vector<CanFrame>& given, Instant now, std::size_t room = 1000) {
     const auto offered = table_.offer(given, now);
     const std::size_t count = std::min(offered.size(), room);
-    const std::vector<CanFrame> went(offered.begin(), offered.begin() + static_cast<std::ptrdiff_t>(count));
+    std::vector<CanFrame> went(offered.begin(), offered.begin() + static_cast<std::ptrdiff_t>(count));
     taken_ = table_.handed_over(count, now);
     return went;
   }
