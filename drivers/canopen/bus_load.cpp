@@ -13,8 +13,8 @@
 namespace ivo::drivers {
 namespace {
 
-constexpr std::uint8_t kSharedTargetsBytes = 8;
-constexpr std::uint8_t kControlwordBytes = 2;
+constexpr std::uint8_t kTwoTargetsBytes = 8;
+constexpr std::uint8_t kControlwordAloneBytes = 2;
 constexpr std::uint8_t kSdoBytes = 8;
 
 double share(double bits, Duration time, std::uint32_t bit_rate_bps) noexcept {
@@ -67,12 +67,12 @@ BusSchedule schedule_of(const Robot& robot) noexcept {
     if (robot.pdo_layout == PdoLayout::kOwn) {
       put(schedule, {cob_id::rpdo1(drive.node_id), kPdoBytes, robot.cycle});
     } else {
-      put(schedule, {cob_id::rpdo1(drive.node_id), kControlwordBytes, rates::kControlwordRefresh});
+      put(schedule, {cob_id::rpdo1(drive.node_id), kControlwordAloneBytes, rates::kControlwordRefresh});
     }
   }
   if (robot.pdo_layout == PdoLayout::kShared) {
     for (std::size_t first = 0; first < robot.drives.size(); first += 2) {
-      put(schedule, {cob_id::of(0x300, robot.drives[first].node_id), kSharedTargetsBytes, robot.cycle});
+      put(schedule, {cob_id::of(0x300, robot.drives[first].node_id), kTwoTargetsBytes, robot.cycle});
     }
   }
   put(schedule, {cob_id::heartbeat(robot.master_node_id), 1, rates::kMasterHeartbeat});
