@@ -16,8 +16,9 @@ struct RecordedFrame {
   hal::CanFrame frame;
 };
 
-/// 384 KB: 1.8 s of a bus at 1 Mbit/s that is full, 3 s of our own traffic. What does not fit is lost and counted.
-using FrameRing = SpscRing<RecordedFrame, 16384>;
+/// 1.5 MB: 7 s of a bus at 1 Mbit/s that is full, 14 s of our own traffic. What does not fit is lost and counted.
+inline constexpr std::size_t kRecordedFrames = 65'536;
+using FrameRing = SpscRing<RecordedFrame, kRecordedFrames>;
 
 /// Times in the ring never go back. Thread: the bus's; another one reads the ring. Cost: 24 bytes copied a frame.
 class RecordingBus final : public hal::CanBus {

@@ -97,14 +97,14 @@ TEST_F(CandumpLogTest, RefusesAFileThatAnotherRunIsWriting) {
 TEST_F(CandumpLogTest, SaysHowManyFramesTheRingLost) {
   Result<CandumpLog> log = CandumpLog::create(path(), "can0", Duration::zero());
   ASSERT_TRUE(log.ok());
-  push(16384);
+  push(int{kRecordedFrames});
   EXPECT_FALSE(ring_->push({}));
   log.value().drain(*ring_);
   const Result<void> closed = log.value().close(*ring_);
   ASSERT_FALSE(closed.ok());
   EXPECT_EQ(closed.error().message,
             path() + ": 1 frames are missing in between; expected a disk and a terminal that keep up");
-  EXPECT_EQ(log.value().frames(), 16384U);
+  EXPECT_EQ(log.value().frames(), kRecordedFrames);
 }
 
 /// No file grows beyond `bytes` while this lives.

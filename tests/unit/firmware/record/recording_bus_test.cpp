@@ -83,11 +83,11 @@ TEST(RecordingBus, IsTheInnerBusInAllElse) {
 
 TEST(RecordingBus, CountsWhatTheRingCannotHoldAndPassesItOnAllTheSame) {
   Rig rig;
-  for (int i = 0; i < 16384 + 3; ++i) {
+  for (std::size_t i = 0; i < kRecordedFrames + 3; ++i) {
     ASSERT_EQ(rig.recording.send({&kSync, 1}, Instant{}), 1U);
   }
   EXPECT_EQ(rig.ring->lost(), 3U);
-  EXPECT_EQ(rig.bus.port(0).counters().sent, 16384U + 3U);
+  EXPECT_EQ(rig.bus.port(0).counters().sent, kRecordedFrames + 3U);
 }
 
 }  // namespace
