@@ -33,7 +33,7 @@ TEST(DriveGroup, StartsMovesFailsAndStartsAgainWithoutAHeap) {
       for (const Instant end = now + time; now < end; now += rates::kCycle) {
         const std::size_t count = bus.port(0).receive(frames, now);
         for (std::size_t i = 0; i < count; ++i) {
-          group.on_frame(frames[i].frame);
+          group.on_frame(frames[i]);
         }
         seen = group.update(now);
         group.write(now, enable, {{radps, radps, radps, radps}});

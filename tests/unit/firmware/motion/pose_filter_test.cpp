@@ -168,7 +168,7 @@ TEST(PoseFilter, DoesNotMindInWhichOrderPosesArrive) {
 // filter thinks of it, must be chi-square with three degrees of freedom.
 TEST(PoseFilter, IsAsUnsureAsItIsWrong) {
   constexpr int kRuns = 100;
-  constexpr int kLooks = 10;
+  constexpr int kLooks = 6;
   std::array<double, kLooks> nees{};
   double gate_sum = 0;
   for (int run = 0; run < kRuns; ++run) {
