@@ -102,12 +102,12 @@ class WrongInput(unittest.TestCase):
     def test_an_unknown_command_is_refused_with_those_that_there_are(self):
         done = ivo("bogus")
         self.assertEqual((done.returncode, done.stderr),
-                         (2, 'ivo: no command is called "bogus"; expected run, plan, score, bench, load, dbc\n'))
+                         (2, 'ivo: no command is called "bogus"; expected run, plan, score, bench, wheels, load, dbc\n'))
 
     def test_a_command_line_that_makes_no_sense_is_refused(self):
         for args, says in (
-            ([], "no command; expected run, plan, score, bench, load, dbc"),
-            (["--version"], 'no command is called "--version"; expected run, plan, score, bench, load, dbc'),
+            ([], "no command; expected run, plan, score, bench, wheels, load, dbc"),
+            (["--version"], 'no command is called "--version"; expected run, plan, score, bench, wheels, load, dbc'),
             (["run"], "MISSION is required"),
             (["run", ""], "MISSION: is empty; expected a name"),
             (["score", "x.toml", ""], "PLAN: is empty; expected a name"),

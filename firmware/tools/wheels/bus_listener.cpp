@@ -60,7 +60,7 @@ void BusListener::take(std::size_t wheel, const hal::ReceivedFrame& received) no
     node.emergency_at = received.at;
     ++node.emergencies;
   } else if (frame.id == cob_id::tpdo1(drive.node_id)) {
-    if (const auto status = drivers::parse_tpdo1(frame)) {
+    if (const auto status = drivers::parse_status(frame)) {
       node.status = status;
       node.status_at = received.at;
       encoders_[wheel].sample(status->position, received.at);

@@ -47,11 +47,11 @@ std::string wheel_line(const BusListener& heard, const Robot& robot, Wheel wheel
   std::string power = "-";
   std::string word = "-";
   std::string motion = format("%9s %7s %7s", "-", "-", "-");
-  if (node.status) {
+  if (node.status) {  // + 0.0: of the two zeros the one without a sign
     power = name_of(drivers::cia402::power_state(node.status->statusword));
     word = hexadecimal(node.status->statusword, 4);
-    const std::string told = node.told_radps ? format("%+.2f", *node.told_radps) : "-";
-    motion = format("%+9.3f %7s %+7.2f", heard.angle_rad(wheel) / (2.0 * std::numbers::pi), told.c_str(),
+    const std::string told = node.told_radps ? format("%+.2f", *node.told_radps + 0.0) : "-";
+    motion = format("%+9.3f %7s %+7.2f", heard.angle_rad(wheel) / (2.0 * std::numbers::pi) + 0.0, told.c_str(),
                     heard.radps(wheel, now));
   }
   return format("%-11s  %4d  %-15s  %-22s  %-5s  %s  %9s  %s", std::string(name_of(wheel)).c_str(),
