@@ -37,6 +37,9 @@ ControlLoop::ControlLoop(const LoopSetup& setup, planner::Planner& planner, hal:
       limiter_(planned_limits(setup)),
       follower_(planned_limits(setup)),
       gate_(planned_limits(setup), rates::kFeedbackTimeout),
+      monitor_(setup.robot),
+      stop_inputs_(setup.robot.inputs),
+      inputs_(setup.inputs),
       search_(planner.cells(), setup.searchers),
       object_(setup.object),
       start_(setup.start),
@@ -55,6 +58,7 @@ void ControlLoop::cycle(Instant now, std::int64_t skipped) noexcept {
   now_ = now;
   take_commands();
   drain_bus();
+  look_at_stop_inputs();
   look_at_drives();
   look_at_ourselves(skipped);
   look_for_object();
@@ -110,6 +114,20 @@ void ControlLoop::look_at_drives() noexcept {
     feedback_at_ = now_;
     odometry_.update(wheels_.angle_rad);
   }
+  const bool enabled = wheels_.state == drivers::GroupState::kEnabled;
+  if (const auto fault = monitor_.update({told_, wheels_.angle_rad, enabled}, now_)) {
+    fail(*fault);
+  }
+}
+
+// Pressed in motion it is a fault. Before, it only keeps the robot from getting ready, as a drive without power does.
+void ControlLoop::look_at_stop_inputs() noexcept {
+  const auto pressed = stop_inputs_.judge(inputs_ != nullptr ? inputs_->snapshot(now_) : hal::DigitalSnapshot{});
+  stop_held_ = pressed.has_value();
+  clear_asked_ = clear_asked_ && !stop_held_;
+  if (stop_held_ && permissions(mode_).may_move) {
+    fail(*pressed);
+  }
 }
 
 void ControlLoop::look_at_ourselves(std::int64_t skipped) noexcept {
@@ -163,7 +181,8 @@ void ControlLoop::decide_mode() noexcept {
           .stop_asked = stop_cause_ != StopCause::kNone,
           .clear_asked = clear_asked_,
           .search_ended = search_.state() != SearchState::kRunning,
-          .drives_ready = enabled || wheels_.state == GroupState::kReady || wheels_.state == GroupState::kEnabling,
+          .drives_ready =
+              !stop_held_ && (enabled || wheels_.state == GroupState::kReady || wheels_.state == GroupState::kEnabling),
           .drives_enabled = enabled,
           .drives_standstill = wheels_.standstill && at_rest(moving_),
           .drives_fault = wheels_.state == GroupState::kFault,
@@ -237,7 +256,8 @@ Twist ControlLoop::pass_gate(const Twist& limited) noexcept {
 void ControlLoop::write(const Twist& passed) noexcept {
   const bool enable = permissions(mode_).enable_drives;
   bus_.permit_motion(enable);
-  drives_.write(now_, enable, {kinematics_.wheel_speeds(passed)});
+  told_ = kinematics_.wheel_speeds(passed);
+  drives_.write(now_, enable, {told_});
   moving_ = passed;
 }
 

@@ -18,6 +18,9 @@
 #include "firmware/safety/command_gate.hpp"
 #include "firmware/safety/guarded_bus.hpp"
 #include "firmware/safety/mode.hpp"
+#include "firmware/safety/stop_inputs.hpp"
+#include "firmware/safety/wheel_monitor.hpp"
+#include "hal/api/digital_io.hpp"
 #include "planner/search/planner.hpp"
 
 namespace ivo::firmware {
@@ -29,6 +32,8 @@ struct LoopSetup {
   SearchObject object;
   /// A fault does not finish the loop: somebody is there to clear it or to ask for a stop.
   bool fault_waits = false;
+  /// Where the robot has stop inputs (robot.inputs); outlives the loop. Inputs that nobody reads count as pressed.
+  hal::DigitalInputs* inputs = nullptr;
 };
 
 class ControlLoop {
@@ -63,6 +68,7 @@ class ControlLoop {
   void take_commands() noexcept;
   void drain_bus() noexcept;
   void look_at_drives() noexcept;
+  void look_at_stop_inputs() noexcept;
   void look_at_ourselves(std::int64_t skipped) noexcept;
   void look_for_object() noexcept;
   void decide_mode() noexcept;
@@ -87,6 +93,9 @@ class ControlLoop {
   Limiter limiter_;
   PathFollower follower_;
   CommandGate gate_;
+  WheelMonitor monitor_;
+  StopInputs stop_inputs_;
+  hal::DigitalInputs* inputs_;
   ModeMachine mode_machine_;
   SearchRun search_;
   SearchObject object_;
@@ -102,7 +111,9 @@ class ControlLoop {
   Mode mode_ = Mode::kPlanning;
   drivers::DriveFaultReason fault_recorded_ = drivers::DriveFaultReason::kNone;
 
-  Twist moving_;  // last sent
+  Twist moving_;            // last sent
+  WheelValues told_{};      // rad/s, of that
+  bool stop_held_ = false;  // an input is pressed
   PathFollower::Output following_;
   bool plan_ready_ = false;
   bool consent_ = false;

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "config/rates.hpp"
+#include "drivers/canopen/bus_ids.hpp"
 #include "drivers/canopen/cob_id.hpp"
 #include "drivers/sim/sim_drives.hpp"
 #include "firmware/files/number_text.hpp"
@@ -111,7 +112,9 @@ Result<std::unique_ptr<RunWorld>> RunWorld::open(const RunOptions& options, cons
   if (options.lock_step && !options.can.starts_with("vcan") && !options.can.starts_with("vxcan")) {
     return Error{"--clock sync: " + options.can + " may be a real interface; expected a virtual one, as vcan0"};
   }
-  Result<hal::SocketCanBus> bus = hal::SocketCanBus::open(options.can, {.bit_rate_bps = robot.bit_rate_bps});
+  const drivers::BusIds ids = drivers::bus_ids(robot);
+  Result<hal::SocketCanBus> bus =
+      hal::SocketCanBus::open(options.can, {.ids = ids.span(), .bit_rate_bps = robot.bit_rate_bps});
   if (!bus) {
     return bus.error();
   }

@@ -39,7 +39,7 @@ void decode(const hal::CanFrame& frame) {
     }
     require(drivers::sdo_command::bytes_in(message->command).value_or(1) <= 4, "an expedited SDO holds four bytes");
   }
-  if (const auto status = drivers::parse_tpdo1(frame)) {
+  if (const auto status = drivers::parse_status(frame)) {
     require(frame.size == drivers::kPdoBytes, "feedback has the length that was mapped");
     const drivers::cia402::PowerState state = drivers::cia402::power_state(status->statusword);
     for (const auto goal :

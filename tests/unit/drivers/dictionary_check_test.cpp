@@ -14,7 +14,7 @@
 namespace ivo::drivers {
 namespace {
 
-StartupSteps steps() { return startup_steps(test_robot().drives[0], 127); }
+StartupSteps steps() { return startup_steps(test_robot(), Wheel::kFrontLeft); }
 
 std::string replaced(std::string text, const std::string& after, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from, text.find(after));
