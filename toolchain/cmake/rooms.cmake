@@ -56,3 +56,15 @@ function(ivo_program name main)
     set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
   endif()
 endfunction()
+
+# ivo_compiled_in_eds(TARGET NAME...): the text of config/eds/NAME.eds becomes a function NAME_eds_text of TARGET.
+function(ivo_compiled_in_eds target)
+  foreach(IVO_EDS_NAME ${ARGN})
+    set(file ${PROJECT_SOURCE_DIR}/config/eds/${IVO_EDS_NAME}.eds)
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+    file(READ ${file} IVO_EDS_TEXT)
+    configure_file(${PROJECT_SOURCE_DIR}/drivers/eds/shipped_eds_text.cpp.in
+                   ${PROJECT_BINARY_DIR}/generated/${IVO_EDS_NAME}_eds_text.cpp @ONLY)
+    target_sources(${target} PRIVATE ${PROJECT_BINARY_DIR}/generated/${IVO_EDS_NAME}_eds_text.cpp)
+  endforeach()
+endfunction()

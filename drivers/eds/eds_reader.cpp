@@ -1,0 +1,402 @@
+#include "drivers/eds/eds_reader.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <span>
+
+#include "config/base/static_vector.hpp"
+#include "drivers/eds/eds_entry.hpp"
+#include "drivers/eds/eds_lines.hpp"
+#include "drivers/eds/eds_number.hpp"
+#include "drivers/eds/eds_section.hpp"
+
+namespace ivo::drivers {
+namespace {
+
+using Kind = EdsSection::Kind;
+
+constexpr std::uint8_t kMostSubs = 0xFE;
+
+struct Head {  // the section of an object itself
+  std::uint16_t index = 0;
+  EdsObjectType type = EdsObjectType::kVariable;
+  std::uint16_t subs = 0;    // as it says
+  std::uint8_t compact = 0;  // CompactSubObj
+  std::uint32_t line = 0;
+};
+
+struct Listed {
+  std::uint16_t index = 0;
+  std::uint32_t line = 0;
+};
+
+bool before(const EdsObject& a, const EdsObject& b) noexcept {
+  return a.address.index != b.address.index ? a.address.index < b.address.index
+         : a.address.sub != b.address.sub   ? a.address.sub < b.address.sub
+                                            : a.line < b.line;
+}
+
+template <class T>
+bool before_by_index(const T& a, const T& b) noexcept {
+  return a.index != b.index ? a.index < b.index : a.line < b.line;
+}
+
+}  // namespace
+
+class EdsReader {
+ public:
+  explicit EdsReader(EdsDictionary& into) noexcept : into_(into) { into_.clear(); }
+
+  std::optional<EdsError> read(std::string_view text) noexcept {
+    EdsLines lines(text);
+    for (EdsLine line = lines.next(); line.kind != EdsLine::Kind::kEnd && ok(); line = lines.next()) {
+      if (line.kind == EdsLine::Kind::kSection) {
+        begin(line);
+      } else {
+        take(line);
+      }
+    }
+    if (ok() && lines.error().has_value()) {
+      error_ = lines.error();
+      error_->section = ShortText<40>(section_name_);
+    }
+    if (ok()) {
+      end_section();
+    }
+    if (ok()) {
+      check_whole();
+    }
+    return error_;
+  }
+
+ private:
+  [[nodiscard]] bool ok() const noexcept { return !error_.has_value(); }
+
+  void fail(EdsProblem problem, std::uint32_t line, ShortText<40> section, std::uint64_t number = 0) noexcept {
+    if (ok()) {
+      error_ = EdsError{.problem = problem,
+                        .line = line,
+                        .section = section,
+                        .key = {},
+                        .found = {},
+                        .type = DataType::kNone,
+                        .number = number};
+    }
+  }
+  void fail_here(EdsProblem problem, const EdsLine& line, std::uint64_t number = 0) noexcept {
+    fail(problem, line.number, ShortText<40>(section_name_), number);
+    error_->key = ShortText<40>(line.name);
+    error_->found = ShortText<60>(line.value);
+  }
+  void take_error(const EdsEntryReader& reader) noexcept {
+    if (ok() && reader.error().has_value()) {
+      error_ = reader.error();
+      error_->section = ShortText<40>(section_name_);
+    }
+  }
+
+  void begin(const EdsLine& line) noexcept {
+    end_section();
+    section_ = eds_section(line.name);
+    section_name_ = line.name;
+    section_line_ = line.number;
+    fields_.clear();
+    announced_.reset();
+    listed_before_ = listed_.size();
+    if (section_.kind == Kind::kValueTable) {
+      fail(EdsProblem::kCompactValues, line.number, ShortText<40>(line.name));
+    }
+    std::uint32_t& first = single_lines_[static_cast<std::size_t>(section_.kind)];
+    if (section_.is_single() && first != 0) {
+      fail(EdsProblem::kDuplicateSection, line.number, ShortText<40>(line.name), first);
+    }
+    first = line.number;
+  }
+
+  void take(const EdsLine& line) noexcept {
+    switch (section_.kind) {
+      case Kind::kNone:
+        fail_here(EdsProblem::kKeyOutsideSection, line);
+        break;
+      case Kind::kDummyUsage:
+        take_dummy(line);
+        break;
+      case Kind::kMandatoryObjects:
+      case Kind::kOptionalObjects:
+      case Kind::kManufacturerObjects:
+        take_listed(line);
+        break;
+      case Kind::kDeviceInfo:
+      case Kind::kObject:
+      case Kind::kSub:
+        if (const std::uint32_t first = fields_.take(line); first != 0) {
+          fail_here(EdsProblem::kDuplicateKey, line, first);
+        }
+        break;
+      case Kind::kForeign:
+      case Kind::kValueTable:
+        break;
+    }
+  }
+
+  /// Dummy0005=1.
+  void take_dummy(const EdsLine& line) noexcept {
+    constexpr std::string_view kDummy = "Dummy";
+    std::uint32_t type = 0;
+    if (!starts_with_word(line.name, kDummy)) {
+      return;
+    }
+    const std::string_view digits = line.name.substr(kDummy.size());
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), type, 16);
+    const EdsNumber used = eds_number(line.value, DataType::kBoolean);
+    if (error != std::errc() || end != digits.data() + digits.size() || used.status == EdsNumberStatus::kNotANumber) {
+      fail_here(EdsProblem::kNotANumber, line);
+    } else if (type > 0x1F || used.status == EdsNumberStatus::kOutOfRange) {
+      fail_here(EdsProblem::kNumberOutOfRange, line, 1);
+    } else if (used.value.bits != 0) {
+      into_.dummies_ |= std::uint32_t{1} << type;
+    }
+  }
+
+  /// SupportedObjects=3, 1=0x1000.
+  void take_listed(const EdsLine& line) noexcept {
+    const bool announces = same_word(line.name, "SupportedObjects");
+    const bool lists = std::all_of(line.name.begin(), line.name.end(), [](char c) { return c >= '0' && c <= '9'; });
+    if (!announces && !lists) {
+      return;
+    }
+    const EdsNumber number = eds_number(line.value, DataType::kUnsigned16);
+    if (number.status == EdsNumberStatus::kNotANumber) {
+      fail_here(EdsProblem::kNotANumber, line);
+    } else if (number.status == EdsNumberStatus::kOutOfRange) {
+      fail_here(EdsProblem::kNumberOutOfRange, line, 0xFFFF);
+    } else if (announces && announced_.has_value()) {
+      fail_here(EdsProblem::kDuplicateKey, line, section_line_);
+    } else if (announces) {
+      announced_ = number.value.bits;
+    } else if (!listed_.push_back({static_cast<std::uint16_t>(number.value.bits), line.number})) {
+      fail_here(EdsProblem::kTooManyObjects, line);
+    }
+  }
+
+  void end_section() noexcept {
+    if (!ok()) {
+      return;
+    }
+    if (section_.is_list()) {
+      const std::size_t count = listed_.size() - listed_before_;
+      if (announced_.value_or(0) != count) {
+        fail(EdsProblem::kWrongCount, section_line_, ShortText<40>(section_name_), count);
+        error_->key = ShortText<40>("SupportedObjects");
+      }
+    } else if (section_.kind == Kind::kDeviceInfo) {
+      end_device();
+    } else if (section_.kind == Kind::kObject) {
+      end_object();
+    } else if (section_.kind == Kind::kSub) {
+      EdsEntryReader reader(fields_, section_line_);
+      add(reader, reader.object_type() == EdsObjectType::kDomain);
+    }
+  }
+
+  void end_device() noexcept {
+    constexpr std::uint64_t kMost = 0xFFFF'FFFF;
+    EdsEntryReader reader(fields_, section_line_);
+    into_.device_ = {static_cast<std::uint32_t>(reader.number(EdsKey::kVendorNumber, kMost)),
+                     static_cast<std::uint32_t>(reader.number(EdsKey::kProductNumber, kMost)),
+                     static_cast<std::uint32_t>(reader.number(EdsKey::kRevisionNumber, kMost))};
+    take_error(reader);
+    const auto vendor = keep(fields_[EdsKey::kVendorName].value);
+    const auto product = keep(fields_[EdsKey::kProductName].value);
+    into_.vendor_name_ = vendor.at;
+    into_.vendor_name_bytes_ = vendor.bytes;
+    into_.product_name_ = product.at;
+    into_.product_name_bytes_ = product.bytes;
+  }
+
+  void end_object() noexcept {
+    EdsEntryReader reader(fields_, section_line_);
+    Head head;
+    head.index = section_.address.index;
+    head.type = reader.object_type();
+    head.line = section_line_;
+    reader.require(EdsKey::kParameterName);
+    switch (head.type) {
+      case EdsObjectType::kVariable:
+      case EdsObjectType::kDomain:
+        add(reader, head.type == EdsObjectType::kDomain);
+        break;
+      case EdsObjectType::kArray:
+      case EdsObjectType::kRecord:
+        head.compact = static_cast<std::uint8_t>(reader.number(EdsKey::kCompactSubObj, kMostSubs));
+        if (head.compact == 0) {
+          reader.require(EdsKey::kSubNumber);
+        }
+        head.subs = static_cast<std::uint16_t>(reader.number(EdsKey::kSubNumber, 0x100));
+        add_compact(reader, head);
+        break;
+      case EdsObjectType::kNull:
+      case EdsObjectType::kDefType:
+      case EdsObjectType::kDefStruct:
+        head.subs = static_cast<std::uint16_t>(reader.number(EdsKey::kSubNumber, 0x100));
+        break;
+    }
+    take_error(reader);
+    if (ok() && !heads_.push_back(head)) {
+      fail(EdsProblem::kTooManyObjects, section_line_, ShortText<40>(section_name_));
+    }
+  }
+
+  /// CompactSubObj=8: sub-index 0 and eight that are all as the section says.
+  void add_compact(EdsEntryReader& reader, const Head& head) noexcept {
+    if (head.compact == 0) {
+      return;
+    }
+    EdsObject object = reader.entry({head.index, 1}, false);
+    take_error(reader);
+    keep_words(object);
+    EdsObject count;
+    count.address = {head.index, 0};
+    count.type = DataType::kUnsigned8;
+    count.bytes = 1;
+    count.line = section_line_;
+    count.name = object.name;
+    count.name_bytes = object.name_bytes;
+    count.power_on = {true, false, head.compact};
+    push(count);
+    for (std::uint32_t sub = 1; sub <= head.compact; ++sub) {
+      object.address.sub = static_cast<std::uint8_t>(sub);
+      push(object);
+    }
+  }
+
+  void add(EdsEntryReader& reader, bool domain) noexcept {
+    EdsObject object = reader.entry(section_.address, domain);
+    take_error(reader);
+    keep_words(object);
+    push(object);
+  }
+
+  void keep_words(EdsObject& object) noexcept {
+    const auto name = keep(fields_[EdsKey::kParameterName].value);
+    object.name = name.at;
+    object.name_bytes = name.bytes;
+    if (is_text(object.type)) {
+      const EdsField& configured = fields_[EdsKey::kParameterValue];
+      const auto text = keep(configured.given() ? configured.value : fields_[EdsKey::kDefaultValue].value);
+      object.text = text.at;
+      object.text_bytes = text.bytes;
+    }
+  }
+
+  void push(const EdsObject& object) noexcept {
+    if (ok() && !into_.objects_.push_back(object)) {
+      fail(EdsProblem::kTooManyObjects, section_line_, ShortText<40>(section_name_));
+    }
+  }
+
+  EdsDictionary::Text keep(std::string_view text) noexcept {
+    const EdsDictionary::Text kept = into_.keep(text);
+    if (!kept.kept) {
+      fail(EdsProblem::kTooMuchText, section_line_, ShortText<40>(section_name_));
+    }
+    return kept;
+  }
+
+  void check_whole() noexcept {
+    std::sort(into_.objects_.begin(), into_.objects_.end(), before);
+    std::sort(heads_.begin(), heads_.end(), before_by_index<Head>);
+    std::sort(listed_.begin(), listed_.end(), before_by_index<Listed>);
+    if (heads_.empty() && into_.objects_.empty()) {
+      fail(EdsProblem::kNoObjects, section_line_, {});
+    }
+    for (std::size_t i = 1; i < heads_.size(); ++i) {
+      if (heads_[i - 1].index == heads_[i].index) {
+        return fail(EdsProblem::kDuplicateSection, heads_[i].line, section_name({heads_[i].index, 0}, false),
+                    heads_[i - 1].line);
+      }
+    }
+    const EdsObject* object = into_.objects_.begin();
+    for (std::size_t i = 0; i < heads_.size() && ok(); ++i) {
+      const Head& head = heads_[i];
+      const EdsObject* const first = object;
+      while (object != into_.objects_.end() && object->address.index == head.index) {
+        ++object;
+      }
+      if (first != into_.objects_.end() && first->address.index < head.index) {
+        return fail(EdsProblem::kSubWithoutObject, first->line, section_name(first->address, true));
+      }
+      check_object(head, {first, object});
+    }
+    if (ok() && object != into_.objects_.end()) {
+      fail(EdsProblem::kSubWithoutObject, object->line, section_name(object->address, true));
+    }
+    check_lists();
+  }
+
+  void check_object(const Head& head, std::span<const EdsObject> entries) noexcept {
+    const ShortText<40> name = section_name({head.index, 0}, false);
+    const bool variable = head.type == EdsObjectType::kVariable || head.type == EdsObjectType::kDomain;
+    if (variable) {
+      const auto other =
+          std::find_if(entries.begin(), entries.end(), [&](const EdsObject& entry) { return entry.line != head.line; });
+      if (other != entries.end()) {
+        fail(EdsProblem::kSubOfVariable, other->line, section_name(other->address, true));
+      }
+      return;
+    }
+    if (head.compact != 0) {
+      if (entries.size() != head.compact + std::size_t{1}) {
+        fail(EdsProblem::kCompactWithSubs, head.line, name);
+      }
+      return;
+    }
+    for (std::size_t i = 1; i < entries.size(); ++i) {
+      if (entries[i].address == entries[i - 1].address) {
+        return fail(EdsProblem::kDuplicateSection, entries[i].line, section_name(entries[i].address, true),
+                    entries[i - 1].line);
+      }
+    }
+    if (entries.size() != head.subs) {
+      fail(EdsProblem::kWrongCount, head.line, name, entries.size());
+      error_->key = ShortText<40>(name_of(EdsKey::kSubNumber));
+    } else if (!entries.empty() && entries.front().address.sub != 0) {
+      fail(EdsProblem::kMissingSub, head.line, name);
+    }
+  }
+
+  void check_lists() noexcept {
+    const Head* head = heads_.begin();
+    for (std::size_t i = 0; i < listed_.size() && ok(); ++i) {
+      const Listed& listed = listed_[i];
+      while (head != heads_.end() && head->index < listed.index) {
+        ++head;
+      }
+      const ShortText<40> name = section_name({listed.index, 0}, false);
+      if (i > 0 && listed_[i - 1].index == listed.index) {
+        fail(EdsProblem::kListedTwice, listed.line, name, listed_[i - 1].line);
+      } else if (head == heads_.end() || head->index != listed.index) {
+        fail(EdsProblem::kListedButMissing, listed.line, name);
+      }
+    }
+  }
+
+  EdsDictionary& into_;
+  std::optional<EdsError> error_;
+  EdsSection section_;
+  std::string_view section_name_;
+  std::uint32_t section_line_ = 0;
+  std::array<std::uint32_t, static_cast<std::size_t>(Kind::kNone) + 1> single_lines_{};
+  EdsFields fields_;
+  std::optional<std::uint64_t> announced_;  // SupportedObjects
+  std::size_t listed_before_ = 0;
+  StaticVector<Listed, EdsDictionary::kObjects> listed_;
+  StaticVector<Head, EdsDictionary::kObjects> heads_;
+};
+
+std::optional<EdsError> read_eds(std::string_view text, EdsDictionary& into) noexcept {
+  return EdsReader(into).read(text);
+}
+
+}  // namespace ivo::drivers
