@@ -14,11 +14,14 @@ static_assert(kFramesPerRound <= SimDrive::Outbox::capacity());
 
 }  // namespace
 
-SimDrives::SimDrives(hal::CanBus& bus, const Robot& robot, TimeFrom time_from, const Scripts& scripts) noexcept
+SimDrives::SimDrives(hal::CanBus& bus, const Robot& robot, TimeFrom time_from, const Scripts& scripts,
+                     const Dictionaries& dictionaries) noexcept
     : bus_(bus),
       time_from_(time_from),
-      drives_{SimDrive(robot.drives[0], scripts[0]), SimDrive(robot.drives[1], scripts[1]),
-              SimDrive(robot.drives[2], scripts[2]), SimDrive(robot.drives[3], scripts[3])} {}
+      drives_{SimDrive(robot.drives[0], scripts[0], *dictionaries[0]),
+              SimDrive(robot.drives[1], scripts[1], *dictionaries[1]),
+              SimDrive(robot.drives[2], scripts[2], *dictionaries[2]),
+              SimDrive(robot.drives[3], scripts[3], *dictionaries[3])} {}
 
 void SimDrives::open() noexcept {
   for (SimDrive& drive : drives_) {
@@ -32,6 +35,7 @@ void SimDrives::update(Instant now) noexcept {
     for (SimDrive& drive : drives_) {
       drive.advance_to(now, out_);
     }
+    hear_each_other();
   }
   std::array<hal::ReceivedFrame, limits::kFramesPerCycle> frames;
   const std::size_t count = bus_.receive(frames, now);
@@ -45,19 +49,37 @@ void SimDrives::update(Instant now) noexcept {
 }
 
 void SimDrives::handle(const hal::CanFrame& frame) noexcept {
-  const bool tick = time_from_ == TimeFrom::kSync && frame.id == cob_id::kSync;
   for (SimDrive& drive : drives_) {
-    if (tick) {
+    if (time_from_ == TimeFrom::kSync && frame.id == drive.sync_id()) {
       drive.advance_to(drive.now() + drive.sync_period(), out_);
     }
     drive.on_frame(frame, out_);
   }
+  hear_each_other();
+}
+
+void SimDrives::hear_each_other() noexcept {
+  const std::size_t sent = out_.size();
+  for (; heard_ < sent; ++heard_) {
+    const hal::CanFrame frame = out_[heard_];
+    if (frame.id != cob_id::kNmt && frame.id != cob_id::kSync) {
+      continue;
+    }
+    if (SimDrive::Outbox::capacity() - out_.size() < kWheels * SimDrive::kFramesPerCall) {
+      break;
+    }
+    for (SimDrive& drive : drives_) {
+      drive.on_frame(frame, out_);
+    }
+  }
+  heard_ = out_.size();
 }
 
 void SimDrives::flush(Instant now) noexcept {
   if (!out_.empty()) {
     bus_.send(out_.span(), now);
     out_.clear();
+    heard_ = 0;
   }
 }
 

@@ -42,7 +42,9 @@ void SimMotion::step(std::int64_t time_us, std::int64_t target_micro, Ramp ramp)
   path_rest_ += (before + velocity_micro_) * time_us;
   count_rest_ += path_rest_ / kPathPerNano * counts_per_unit_ppm_;
   path_rest_ %= kPathPerNano;
-  counts_ += count_rest_ / kCountParts;
+  const std::int64_t turned = count_rest_ / kCountParts;
+  counts_ += turned;
+  slipped_per_mille_ += turned * slip_per_mille_;
   count_rest_ %= kCountParts;
 }
 

@@ -1,92 +1,114 @@
 #include "drivers/sim/sim_objects.hpp"
 
+#include <array>
 #include <cmath>
+#include <span>
 
-#include "drivers/canopen/cob_id.hpp"
+#include "config/base/contract.hpp"
 #include "drivers/canopen/communication_objects.hpp"
 #include "drivers/cia402/objects.hpp"
 
 namespace ivo::drivers {
 namespace {
 
-constexpr ObjectAccess kReadOnly = ObjectAccess::kReadOnly;
-constexpr ObjectAccess kReadWrite = ObjectAccess::kReadWrite;
 constexpr double kRampRadps2 = 50.0;
 constexpr double kQuickStopRampRadps2 = 100.0;
-constexpr std::uint8_t kEventDriven = 255;
+constexpr std::size_t kMostNumberBytes = 4;
 
-struct Object {
-  ObjectAddress address;
-  std::uint8_t bytes = 0;
-  ObjectAccess access{};
-  std::uint32_t value = 0;
-};
+constexpr std::array<ObjectAddress, 9> kNeeded = {
+    object::kDeviceType,  object::kErrorRegister,  object::kProducerHeartbeat,
+    object::kControlword, object::kStatusword,     object::kModeOfOperation,
+    object::kModeDisplay, object::kTargetVelocity, object::kSupportedModes};
 
-void add(ObjectDictionary& objects, const Object& object) noexcept {
-  objects.add({.address = object.address,
-               .bytes = object.bytes,
-               .access = object.access,
-               .mappable = false,
-               .default_value = object.value});
-}
+bool is_number(const EdsObject& object) noexcept { return object.bytes >= 1 && object.bytes <= kMostNumberBytes; }
 
-void add_mappable(ObjectDictionary& objects, ObjectAddress address, std::uint8_t bytes, ObjectAccess access) noexcept {
-  objects.add({.address = address, .bytes = bytes, .access = access, .mappable = true, .default_value = 0});
-}
-
-void add_pdo(ObjectDictionary& objects, ObjectAddress cob_id_object, ObjectAddress count,
-             std::uint32_t cob_id) noexcept {
-  add(objects, {{cob_id_object.index, 0}, 1, kReadOnly, 2});
-  add(objects, {cob_id_object, 4, kReadWrite, cob_id});
-  add(objects, {{cob_id_object.index, 2}, 1, kReadWrite, kEventDriven});
-  add(objects, {count, 1, kReadWrite, 0});
-  for (std::uint8_t n = 1; n <= kSimMappingEntries; ++n) {
-    add(objects, {object::mapping_entry(count, n), 4, kReadWrite, 0});
+ObjectEntry entry_of(const EdsObject& object, std::uint8_t node_id) noexcept {
+  ObjectEntry entry;
+  entry.address = object.address;
+  entry.bytes = object.bytes;
+  entry.readable = readable(object.access);
+  entry.writable = writable(object.access);
+  entry.into_rpdo = object.mappable_into(true);
+  entry.into_tpdo = object.mappable_into(false);
+  entry.is_signed = is_signed(object.type);
+  if (!is_real(object.type) && object.low.given) {
+    entry.low = static_cast<std::int64_t>(object.low.at(node_id));
   }
+  if (!is_real(object.type) && object.high.given) {
+    entry.high = static_cast<std::int64_t>(object.high.at(node_id));
+  }
+  entry.default_value = static_cast<std::uint32_t>(object.power_on.at(object.power_on.given ? node_id : 0));
+  return entry;
 }
 
-void add_communication(ObjectDictionary& objects, const DriveParameters& drive, const SimScript& script) noexcept {
-  add(objects, {object::kDeviceType, 4, kReadOnly, script.device_type});
-  add(objects, {object::kErrorRegister, 1, kReadOnly, 0});
-  add(objects, {object::kSyncCobId, 4, kReadWrite, cob_id::kSync});
-  add(objects, {object::kCyclePeriod, 4, kReadWrite, 0});
-  add(objects, {{object::kConsumerHeartbeat.index, 0}, 1, kReadOnly, 1});
-  add(objects, {object::kConsumerHeartbeat, 4, kReadWrite, 0});
-  add(objects, {object::kProducerHeartbeat, 2, kReadWrite, 0});
-  add(objects, {{object::kVendorId.index, 0}, 1, kReadOnly, 2});
-  add(objects, {object::kVendorId, 4, kReadOnly, drive.vendor_id});
-  add(objects, {object::kProductCode, 4, kReadOnly, drive.product_code});
-  add_pdo(objects, object::kRpdo1CobId, object::kRpdo1Count, cob_id::rpdo1(drive.node_id));
-  add_pdo(objects, object::kTpdo1CobId, object::kTpdo1Count, cob_id::tpdo1(drive.node_id));
+bool add_one(ObjectDictionary& objects, const EdsDictionary& eds, const EdsObject& object,
+             std::uint8_t node_id) noexcept {
+  const ObjectEntry entry = entry_of(object, node_id);
+  if (is_number(object)) {
+    return objects.add(entry);
+  }
+  if (object.bytes == 0) {
+    const std::string_view text = eds.text_of(object);
+    std::array<std::uint8_t, EdsDictionary::kStringBytes> content{};
+    for (std::size_t i = 0; i < text.size(); ++i) {
+      content[i] = static_cast<std::uint8_t>(text[i]);
+    }
+    return objects.add_long(entry, std::span(content).first(text.size()));
+  }
+  std::array<std::uint8_t, 8> content{};
+  for (std::size_t i = 0; i < object.bytes; ++i) {
+    content[i] = static_cast<std::uint8_t>(object.power_on.at(node_id) >> (8 * i));
+  }
+  return objects.add_long(entry, std::span(content).first(object.bytes));
 }
 
-void add_profile(ObjectDictionary& objects, const DriveParameters& drive, const SimScript& script) noexcept {
-  const auto ramp = [&drive](double radps2) {
-    return static_cast<std::uint32_t>(std::llround(radps2 * drive.gear_ratio * drive.velocity_per_radps));
-  };
-  add(objects, {object::kAbortConnectionOption, 2, kReadWrite, 1});
-  add(objects, {object::kErrorCode, 2, kReadOnly, 0});
-  add_mappable(objects, object::kControlword, 2, kReadWrite);
-  add_mappable(objects, object::kStatusword, 2, kReadOnly);
-  add(objects, {object::kQuickStopOption, 2, kReadWrite, cia402::kQuickStopRampThenOff});
-  add(objects, {object::kModeOfOperation, 1, kReadWrite, 0});
-  add(objects, {object::kModeDisplay, 1, kReadOnly, 0});
-  add_mappable(objects, object::kPositionActual, 4, kReadOnly);
-  add_mappable(objects, object::kVelocityActual, 4, kReadOnly);
-  add(objects, {object::kProfileAcceleration, 4, kReadWrite, ramp(kRampRadps2)});
-  add(objects, {object::kProfileDeceleration, 4, kReadWrite, ramp(kRampRadps2)});
-  add(objects, {object::kQuickStopDeceleration, 4, kReadWrite, ramp(kQuickStopRampRadps2)});
-  add_mappable(objects, object::kTargetVelocity, 4, kReadWrite);
-  add(objects, {object::kSupportedModes, 4, kReadOnly, script.supported_modes});
+/// `value` where the EDS leaves it open.
+void fill(ObjectDictionary& objects, const EdsDictionary& eds, ObjectAddress address, std::uint32_t value) noexcept {
+  const EdsObject* const object = eds.find(address);
+  if (object != nullptr && object->power_on.bits == 0) {
+    objects.set_default(address, value);
+  }
 }
 
 }  // namespace
 
-ObjectDictionary sim_objects(const DriveParameters& drive, const SimScript& script) noexcept {
-  ObjectDictionary objects;
-  add_communication(objects, drive, script);
-  add_profile(objects, drive, script);
-  return objects;
+std::optional<SimUnfit> sim_unfit(const EdsDictionary& eds) noexcept {
+  for (const ObjectAddress address : kNeeded) {
+    const EdsObject* const object = eds.find(address);
+    if (object == nullptr || !is_number(*object)) {
+      return SimUnfit{.too_many = false, .missing = address};
+    }
+  }
+  std::size_t longer = 0;
+  for (const EdsObject& object : eds.objects()) {
+    longer += is_number(object) ? 0 : 1;
+  }
+  if (eds.objects().size() > ObjectDictionary::kEntries || longer > ObjectDictionary::kLongObjects) {
+    return SimUnfit{.too_many = true, .missing = {}};
+  }
+  return std::nullopt;
+}
+
+void add_sim_objects(ObjectDictionary& objects, const EdsDictionary& eds, const DriveParameters& drive,
+                     const SimScript& script) noexcept {
+  IVO_CONTRACT(!sim_unfit(eds).has_value());
+  for (const EdsObject& object : eds.objects()) {
+    IVO_CONTRACT(add_one(objects, eds, object, drive.node_id));
+  }
+  const auto ramp = [&drive](double radps2) {
+    return static_cast<std::uint32_t>(std::llround(radps2 * drive.gear_ratio * drive.accel_per_radps2));
+  };
+  fill(objects, eds, object::kVendorId, drive.vendor_id);
+  fill(objects, eds, object::kProductCode, drive.product_code);
+  fill(objects, eds, object::kProfileAcceleration, ramp(kRampRadps2));
+  fill(objects, eds, object::kProfileDeceleration, ramp(kRampRadps2));
+  fill(objects, eds, object::kQuickStopDeceleration, ramp(kQuickStopRampRadps2));
+  if (script.device_type.has_value()) {
+    objects.set_default(object::kDeviceType, *script.device_type);
+  }
+  if (script.supported_modes.has_value()) {
+    objects.set_default(object::kSupportedModes, *script.supported_modes);
+  }
 }
 
 }  // namespace ivo::drivers

@@ -102,7 +102,7 @@ TEST(SimulatedPower, LeavesFaultOnARisingEdgeOnly) {
   SimPower power;
   power.command(controlword::kFaultReset);
   power.fault();
-  power.at_rest(false);
+  power.at_rest();
   ASSERT_EQ(power.state(), PowerState::kFault);
   power.command(controlword::kFaultReset);
   EXPECT_EQ(power.state(), PowerState::kFault) << "bit 7 was up before";
@@ -119,7 +119,7 @@ TEST(SimulatedPower, QuickStopEndsInSwitchOnDisabledAtRest) {
   EXPECT_EQ(power.state(), PowerState::kQuickStopActive);
   power.command(controlword::kEnableOperation);
   EXPECT_EQ(power.state(), PowerState::kQuickStopActive);
-  power.at_rest(false);
+  power.at_rest();
   EXPECT_EQ(power.state(), PowerState::kSwitchOnDisabled);
 }
 
