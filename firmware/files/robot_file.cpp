@@ -6,14 +6,14 @@
 #include <string_view>
 
 #include "config/rates.hpp"
+#include "firmware/files/eds_file.hpp"
 #include "firmware/files/number_text.hpp"
+#include "firmware/files/text_file.hpp"
 #include "firmware/files/toml_table.hpp"
+#include "firmware/files/wheel_keys.hpp"
 
 namespace ivo::firmware {
 namespace {
-
-/// By Wheel.
-constexpr std::array<std::string_view, kWheels> kWheelKeys = {"front_left", "front_right", "rear_left", "rear_right"};
 
 BaseParameters read_base(const TomlValue& table) {
   BaseParameters base;
@@ -74,7 +74,7 @@ void read_cycle(Robot& robot, const TomlValue& bus) {
   }
 }
 
-DriveParameters read_drive(const TomlValue& table) {
+DriveParameters read_drive(const TomlValue& table, const std::string& path) {
   DriveParameters drive;
   drive.node_id = static_cast<std::uint8_t>(table.required("node_id").integer(1, 126));
   const TomlValue sign = table.required("sign");
@@ -87,7 +87,8 @@ DriveParameters read_drive(const TomlValue& table) {
   drive.velocity_per_radps = table.required("velocity_per_radps").number({1e-3, 1e9, "units of 60FFh for 1 rad/s"});
   drive.accel_per_radps2 =
       table.optional("accel_per_radps2").number({1e-3, 1e9, "units of 6083h for 1 rad/s2"}, drive.velocity_per_radps);
-  drive.eds = table.optional("eds").text("");
+  const TomlValue eds = table.optional("eds");
+  drive.eds = eds.is_text() ? beside(path, eds.text()) : eds.text();
   constexpr std::int64_t kMost = std::numeric_limits<std::uint32_t>::max();
   drive.vendor_id = static_cast<std::uint32_t>(table.optional("vendor_id").integer(0, kMost));
   drive.product_code = static_cast<std::uint32_t>(table.optional("product_code").integer(0, kMost));
@@ -128,6 +129,14 @@ void refuse_shared_node_ids(const TomlValue& drives, const Robot& robot) {
   }
 }
 
+void refuse_drives_that_cannot_be_told_all(const TomlValue& drives, const Robot& robot) {
+  for (std::size_t i = 0; i < kWheelKeys.size(); ++i) {
+    if (const Result<void> fit = check_drive_eds(robot, static_cast<Wheel>(i)); !fit) {
+      drives.optional(kWheelKeys[i]).optional("eds").complain(fit.error().message);
+    }
+  }
+}
+
 }  // namespace
 
 Result<Robot> read_robot(const std::string& path) {
@@ -147,12 +156,15 @@ Result<Robot> read_robot(const std::string& path) {
   read_cycle(robot, bus);
   const TomlValue drives = root.required("drive");
   for (std::size_t i = 0; i < kWheelKeys.size(); ++i) {
-    robot.drives[i] = read_drive(drives.required(kWheelKeys[i]));
+    robot.drives[i] = read_drive(drives.required(kWheelKeys[i]), path);
   }
   refuse_shared_node_ids(drives, robot);
   refuse_units_that_do_not_fit(drives, robot);
-  const Result<void> finish = toml.value().finish();
-  if (!finish) {
+  if (const Result<void> finish = toml.value().finish(); !finish) {
+    return finish.error();
+  }
+  refuse_drives_that_cannot_be_told_all(drives, robot);  // what is told depends on all of the above
+  if (const Result<void> finish = toml.value().finish(); !finish) {
     return finish.error();
   }
   return robot;

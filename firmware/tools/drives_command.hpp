@@ -12,8 +12,11 @@
 namespace ivo::firmware {
 
 struct DrivesOptions {
-  std::string interface;   ///< --can, required
-  std::string robot_path;  ///< --robot; empty: the built-in IVO-class base
+  std::string interface;    ///< --can, required
+  std::string robot_path;   ///< --robot; empty: the built-in IVO-class base
+  std::string eds_path;     ///< --eds; empty: each drive's of the robot file, else the built-in one
+  std::string script_path;  ///< --script; empty: nothing goes wrong
+  std::string log_path;     ///< --log; empty: none
   drivers::SimDrives::TimeFrom time_from = drivers::SimDrives::TimeFrom::kClock;  ///< --clock real|sync
   bool help = false;  ///< --help: nothing else was looked at
 };
@@ -24,7 +27,7 @@ struct DrivesOptions {
 [[nodiscard]] Result<DrivesOptions> parse_drives_options(std::span<const char* const> arguments);
 
 /// Runs until `stop`, which a signal sets; one line to `out` when ready and one at the end. Refuses what is wrong with
-/// the robot file or the interface before anything is sent.
+/// the files or the interface before anything is sent.
 [[nodiscard]] Result<void> run_drives(const DrivesOptions& options, const std::atomic<bool>& stop, std::ostream& out);
 
 }  // namespace ivo::firmware

@@ -29,7 +29,8 @@ TEST(DrivesCommand, RefusesWrongArgumentsInOneLineThatNamesThem) {
   EXPECT_EQ(parse({}).error().message, "--can IFACE is missing: the CAN interface to simulate drives on, as vcan0");
   EXPECT_EQ(parse({"--can"}).error().message, "--can expects a value");
   EXPECT_EQ(parse({"--can", "c", "--clock", "fast"}).error().message, "--clock is real or sync, not \"fast\"");
-  EXPECT_EQ(parse({"--bus", "c"}).error().message, "unknown argument \"--bus\": expected --can, --robot or --clock");
+  EXPECT_EQ(parse({"--bus", "c"}).error().message,
+            "unknown argument \"--bus\": expected --can, --robot, --eds, --script, --log or --clock");
 }
 
 TEST(DrivesCommand, RefusesARobotFileThatIsNotThereBeforeItTouchesTheBus) {
