@@ -74,32 +74,36 @@ TEST_F(SimDriveTest, AnswersUploadsWithTheSizeOfTheObject) {
 }
 
 TEST_F(SimDriveTest, RefusesWhatTheStandardRefuses) {
-  expect_abort(ask({0x40, {0x2000, 0}, 0}), SdoAbort::kNoObject);
+  expect_abort(ask({0x40, {0x2001, 0}, 0}), SdoAbort::kNoObject);
   expect_abort(ask({0x40, {0x1018, 9}, 0}), SdoAbort::kNoSubIndex);
   expect_abort(write(object::kDeviceType, 4, 0), SdoAbort::kReadOnly);
   expect_abort(write(object::kTargetVelocity, 2, 0), SdoAbort::kLengthTooLow);
   expect_abort(write(object::kModeOfOperation, 4, 9), SdoAbort::kLengthTooHigh);
   expect_abort(write(object::kModeOfOperation, 1, 8), SdoAbort::kValueRange);
-  expect_abort(write(object::kQuickStopOption, 2, 5), SdoAbort::kValueRange);
-  expect_abort(write(object::kAbortConnectionOption, 2, 4), SdoAbort::kValueRange);
-  expect_abort(ask({0x21, object::kTargetVelocity, 4}), SdoAbort::kCommandSpecifier);
-  expect_abort(ask({0x00, object::kTargetVelocity, 4}), SdoAbort::kCommandSpecifier);
+  expect_abort(write(object::kQuickStopOption, 2, 3), SdoAbort::kValueRange);
+  expect_abort(write(object::kQuickStopOption, 2, 7), SdoAbort::kValueTooHigh);
+  expect_abort(write(object::kQuickStopOption, 2, 0xFFFF), SdoAbort::kValueTooLow);
+  expect_abort(write(object::kAbortConnectionOption, 2, 4), SdoAbort::kValueTooHigh);
+  expect_abort(ask({0x21, object::kTargetVelocity, 65}), SdoAbort::kLengthTooHigh);
   expect_abort(ask({0xC0, object::kTargetVelocity, 4}), SdoAbort::kCommandSpecifier);
 }
 
 TEST_F(SimDriveTest, TakesAMappingOnlyInTheOrderOfTheStandard) {
   expect_abort(write(object::kRpdo1Count, 1, 0), SdoAbort::kAccess);
   write(object::kRpdo1CobId, 4, 0x80000201);
+  expect_abort(write({0x1600, 1}, 4, 0x60FF0020), SdoAbort::kAccess);
+  write(object::kRpdo1Count, 1, 0);
   expect_abort(write({0x1600, 1}, 4, 0x60410010), SdoAbort::kNotMappable);
   expect_abort(write({0x1600, 1}, 4, 0x60400020), SdoAbort::kNotMappable);
   expect_abort(write({0x1600, 1}, 4, 0x10000020), SdoAbort::kNotMappable);
+  write({0x1600, 1}, 4, 0);
   expect_abort(write(object::kRpdo1Count, 1, 1), SdoAbort::kNotMappable);
   write({0x1600, 1}, 4, 0x60FF0020);
   write({0x1600, 2}, 4, 0x60FF0020);
   write({0x1600, 3}, 4, 0x60400010);
   EXPECT_EQ(command_, 0x60);
   expect_abort(write(object::kRpdo1Count, 1, 3), SdoAbort::kPdoLength);
-  expect_abort(write(object::kRpdo1Count, 1, 5), SdoAbort::kValueTooHigh);
+  expect_abort(write(object::kRpdo1Count, 1, 9), SdoAbort::kValueTooHigh);
   write(object::kRpdo1Count, 1, 2);
   EXPECT_EQ(command_, 0x60);
   expect_abort(write({0x1600, 1}, 4, 0x60400010), SdoAbort::kAccess);
