@@ -36,8 +36,8 @@ void EdsEntryReader::complain(EdsProblem problem, EdsKey key, DataType type) noe
     error_ = EdsError{.problem = problem,
                       .line = field.line != 0 ? field.line : section_line_,
                       .section = {},
-                      .key = ShortText<40>(name_of(key)),
-                      .found = ShortText<60>(field.value),
+                      .key = ShortString<40>(name_of(key)),
+                      .found = ShortString<60>(field.value),
                       .type = type,
                       .number = 0};
   }

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "drivers/eds/data_type.hpp"
-#include "drivers/eds/short_text.hpp"
+#include "drivers/eds/short_string.hpp"
 
 namespace ivo::drivers {
 
@@ -39,9 +39,9 @@ enum class EdsProblem : std::uint8_t {
 struct EdsError {
   EdsProblem problem = EdsProblem::kNoObjects;
   std::uint32_t line = 0;  ///< from 1
-  ShortText<40> section;
-  ShortText<40> key;
-  ShortText<60> found;
+  ShortString<40> section;
+  ShortString<40> key;
+  ShortString<60> found;
   DataType type = DataType::kNone;
   std::uint64_t number = 0;
 };

@@ -56,7 +56,7 @@ EdsLine EdsLines::refuse(EdsProblem problem, std::string_view found, std::uint64
                     .line = number_,
                     .section = {},
                     .key = {},
-                    .found = ShortText<60>(found),
+                    .found = ShortString<60>(found),
                     .type = DataType::kNone,
                     .number = number};
   return {EdsLine::Kind::kEnd, number_, {}, {}};

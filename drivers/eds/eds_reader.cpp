@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <span>
 
-#include "config/base/static_vector.hpp"
 #include "drivers/eds/eds_entry.hpp"
 #include "drivers/eds/eds_lines.hpp"
 #include "drivers/eds/eds_number.hpp"
 #include "drivers/eds/eds_section.hpp"
+#include "drivers/eds/eds_structure.hpp"
 
 namespace ivo::drivers {
 namespace {
@@ -17,30 +16,6 @@ namespace {
 using Kind = EdsSection::Kind;
 
 constexpr std::uint8_t kMostSubs = 0xFE;
-
-struct Head {  // the section of an object itself
-  std::uint16_t index = 0;
-  EdsObjectType type = EdsObjectType::kVariable;
-  std::uint16_t subs = 0;    // as it says
-  std::uint8_t compact = 0;  // CompactSubObj
-  std::uint32_t line = 0;
-};
-
-struct Listed {
-  std::uint16_t index = 0;
-  std::uint32_t line = 0;
-};
-
-bool before(const EdsObject& a, const EdsObject& b) noexcept {
-  return a.address.index != b.address.index ? a.address.index < b.address.index
-         : a.address.sub != b.address.sub   ? a.address.sub < b.address.sub
-                                            : a.line < b.line;
-}
-
-template <class T>
-bool before_by_index(const T& a, const T& b) noexcept {
-  return a.index != b.index ? a.index < b.index : a.line < b.line;
-}
 
 }  // namespace
 
@@ -59,13 +34,14 @@ class EdsReader {
     }
     if (ok() && lines.error().has_value()) {
       error_ = lines.error();
-      error_->section = ShortText<40>(section_name_);
+      error_->section = ShortString<40>(section_name_);
     }
     if (ok()) {
       end_section();
     }
     if (ok()) {
-      check_whole();
+      std::sort(into_.objects_.begin(), into_.objects_.end(), before);
+      error_ = structure_.error(into_.objects());
     }
     return error_;
   }
@@ -73,7 +49,7 @@ class EdsReader {
  private:
   [[nodiscard]] bool ok() const noexcept { return !error_.has_value(); }
 
-  void fail(EdsProblem problem, std::uint32_t line, ShortText<40> section, std::uint64_t number = 0) noexcept {
+  void fail(EdsProblem problem, std::uint32_t line, ShortString<40> section, std::uint64_t number = 0) noexcept {
     if (ok()) {
       error_ = EdsError{.problem = problem,
                         .line = line,
@@ -85,14 +61,14 @@ class EdsReader {
     }
   }
   void fail_here(EdsProblem problem, const EdsLine& line, std::uint64_t number = 0) noexcept {
-    fail(problem, line.number, ShortText<40>(section_name_), number);
-    error_->key = ShortText<40>(line.name);
-    error_->found = ShortText<60>(line.value);
+    fail(problem, line.number, ShortString<40>(section_name_), number);
+    error_->key = ShortString<40>(line.name);
+    error_->found = ShortString<60>(line.value);
   }
   void take_error(const EdsEntryReader& reader) noexcept {
     if (ok() && reader.error().has_value()) {
       error_ = reader.error();
-      error_->section = ShortText<40>(section_name_);
+      error_->section = ShortString<40>(section_name_);
     }
   }
 
@@ -103,13 +79,13 @@ class EdsReader {
     section_line_ = line.number;
     fields_.clear();
     announced_.reset();
-    listed_before_ = listed_.size();
+    listed_before_ = structure_.listed();
     if (section_.kind == Kind::kValueTable) {
-      fail(EdsProblem::kCompactValues, line.number, ShortText<40>(line.name));
+      fail(EdsProblem::kCompactValues, line.number, ShortString<40>(line.name));
     }
     std::uint32_t& first = single_lines_[static_cast<std::size_t>(section_.kind)];
     if (section_.is_single() && first != 0) {
-      fail(EdsProblem::kDuplicateSection, line.number, ShortText<40>(line.name), first);
+      fail(EdsProblem::kDuplicateSection, line.number, ShortString<40>(line.name), first);
     }
     first = line.number;
   }
@@ -175,7 +151,7 @@ class EdsReader {
       fail_here(EdsProblem::kDuplicateKey, line, section_line_);
     } else if (announces) {
       announced_ = number.value.bits;
-    } else if (!listed_.push_back({static_cast<std::uint16_t>(number.value.bits), line.number})) {
+    } else if (!structure_.list({static_cast<std::uint16_t>(number.value.bits), line.number})) {
       fail_here(EdsProblem::kTooManyObjects, line);
     }
   }
@@ -185,10 +161,10 @@ class EdsReader {
       return;
     }
     if (section_.is_list()) {
-      const std::size_t count = listed_.size() - listed_before_;
+      const std::size_t count = structure_.listed() - listed_before_;
       if (announced_.value_or(0) != count) {
-        fail(EdsProblem::kWrongCount, section_line_, ShortText<40>(section_name_), count);
-        error_->key = ShortText<40>("SupportedObjects");
+        fail(EdsProblem::kWrongCount, section_line_, ShortString<40>(section_name_), count);
+        error_->key = ShortString<40>("SupportedObjects");
       }
     } else if (section_.kind == Kind::kDeviceInfo) {
       end_device();
@@ -217,7 +193,7 @@ class EdsReader {
 
   void end_object() noexcept {
     EdsEntryReader reader(fields_, section_line_);
-    Head head;
+    EdsHead head;
     head.index = section_.address.index;
     head.type = reader.object_type();
     head.line = section_line_;
@@ -243,13 +219,13 @@ class EdsReader {
         break;
     }
     take_error(reader);
-    if (ok() && !heads_.push_back(head)) {
-      fail(EdsProblem::kTooManyObjects, section_line_, ShortText<40>(section_name_));
+    if (ok() && !structure_.add(head)) {
+      fail(EdsProblem::kTooManyObjects, section_line_, ShortString<40>(section_name_));
     }
   }
 
   /// CompactSubObj=8: sub-index 0 and eight that are all as the section says.
-  void add_compact(EdsEntryReader& reader, const Head& head) noexcept {
+  void add_compact(EdsEntryReader& reader, const EdsHead& head) noexcept {
     if (head.compact == 0) {
       return;
     }
@@ -292,94 +268,16 @@ class EdsReader {
 
   void push(const EdsObject& object) noexcept {
     if (ok() && !into_.objects_.push_back(object)) {
-      fail(EdsProblem::kTooManyObjects, section_line_, ShortText<40>(section_name_));
+      fail(EdsProblem::kTooManyObjects, section_line_, ShortString<40>(section_name_));
     }
   }
 
   EdsDictionary::Text keep(std::string_view text) noexcept {
     const EdsDictionary::Text kept = into_.keep(text);
     if (!kept.kept) {
-      fail(EdsProblem::kTooMuchText, section_line_, ShortText<40>(section_name_));
+      fail(EdsProblem::kTooMuchText, section_line_, ShortString<40>(section_name_));
     }
     return kept;
-  }
-
-  void check_whole() noexcept {
-    std::sort(into_.objects_.begin(), into_.objects_.end(), before);
-    std::sort(heads_.begin(), heads_.end(), before_by_index<Head>);
-    std::sort(listed_.begin(), listed_.end(), before_by_index<Listed>);
-    if (heads_.empty() && into_.objects_.empty()) {
-      fail(EdsProblem::kNoObjects, section_line_, {});
-    }
-    for (std::size_t i = 1; i < heads_.size(); ++i) {
-      if (heads_[i - 1].index == heads_[i].index) {
-        return fail(EdsProblem::kDuplicateSection, heads_[i].line, section_name({heads_[i].index, 0}, false),
-                    heads_[i - 1].line);
-      }
-    }
-    const EdsObject* object = into_.objects_.begin();
-    for (std::size_t i = 0; i < heads_.size() && ok(); ++i) {
-      const Head& head = heads_[i];
-      const EdsObject* const first = object;
-      while (object != into_.objects_.end() && object->address.index == head.index) {
-        ++object;
-      }
-      if (first != into_.objects_.end() && first->address.index < head.index) {
-        return fail(EdsProblem::kSubWithoutObject, first->line, section_name(first->address, true));
-      }
-      check_object(head, {first, object});
-    }
-    if (ok() && object != into_.objects_.end()) {
-      fail(EdsProblem::kSubWithoutObject, object->line, section_name(object->address, true));
-    }
-    check_lists();
-  }
-
-  void check_object(const Head& head, std::span<const EdsObject> entries) noexcept {
-    const ShortText<40> name = section_name({head.index, 0}, false);
-    const bool variable = head.type == EdsObjectType::kVariable || head.type == EdsObjectType::kDomain;
-    if (variable) {
-      const auto other =
-          std::find_if(entries.begin(), entries.end(), [&](const EdsObject& entry) { return entry.line != head.line; });
-      if (other != entries.end()) {
-        fail(EdsProblem::kSubOfVariable, other->line, section_name(other->address, true));
-      }
-      return;
-    }
-    if (head.compact != 0) {
-      if (entries.size() != head.compact + std::size_t{1}) {
-        fail(EdsProblem::kCompactWithSubs, head.line, name);
-      }
-      return;
-    }
-    for (std::size_t i = 1; i < entries.size(); ++i) {
-      if (entries[i].address == entries[i - 1].address) {
-        return fail(EdsProblem::kDuplicateSection, entries[i].line, section_name(entries[i].address, true),
-                    entries[i - 1].line);
-      }
-    }
-    if (entries.size() != head.subs) {
-      fail(EdsProblem::kWrongCount, head.line, name, entries.size());
-      error_->key = ShortText<40>(name_of(EdsKey::kSubNumber));
-    } else if (!entries.empty() && entries.front().address.sub != 0) {
-      fail(EdsProblem::kMissingSub, head.line, name);
-    }
-  }
-
-  void check_lists() noexcept {
-    const Head* head = heads_.begin();
-    for (std::size_t i = 0; i < listed_.size() && ok(); ++i) {
-      const Listed& listed = listed_[i];
-      while (head != heads_.end() && head->index < listed.index) {
-        ++head;
-      }
-      const ShortText<40> name = section_name({listed.index, 0}, false);
-      if (i > 0 && listed_[i - 1].index == listed.index) {
-        fail(EdsProblem::kListedTwice, listed.line, name, listed_[i - 1].line);
-      } else if (head == heads_.end() || head->index != listed.index) {
-        fail(EdsProblem::kListedButMissing, listed.line, name);
-      }
-    }
   }
 
   EdsDictionary& into_;
@@ -391,8 +289,7 @@ class EdsReader {
   EdsFields fields_;
   std::optional<std::uint64_t> announced_;  // SupportedObjects
   std::size_t listed_before_ = 0;
-  StaticVector<Listed, EdsDictionary::kObjects> listed_;
-  StaticVector<Head, EdsDictionary::kObjects> heads_;
+  EdsStructure structure_;
 };
 
 std::optional<EdsError> read_eds(std::string_view text, EdsDictionary& into) noexcept {

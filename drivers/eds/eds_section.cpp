@@ -61,7 +61,7 @@ EdsSection eds_section(std::string_view name) noexcept {
   return {same_word(rest, "Value") ? Kind::kValueTable : Kind::kForeign, address};
 }
 
-ShortText<40> section_name(ObjectAddress address, bool sub) noexcept {
+ShortString<40> section_name(ObjectAddress address, bool sub) noexcept {
   constexpr std::string_view kDigits = "0123456789ABCDEF";
   std::array<char, 9> name{};
   std::size_t size = 0;
@@ -77,7 +77,7 @@ ShortText<40> section_name(ObjectAddress address, bool sub) noexcept {
     }
     name[size++] = kDigits[address.sub & 0xF];
   }
-  return ShortText<40>({name.data(), size});
+  return ShortString<40>({name.data(), size});
 }
 
 std::string_view name_of(EdsKey key) noexcept {

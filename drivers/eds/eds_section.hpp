@@ -8,7 +8,7 @@
 
 #include "drivers/canopen/object_address.hpp"
 #include "drivers/eds/eds_lines.hpp"
-#include "drivers/eds/short_text.hpp"
+#include "drivers/eds/short_string.hpp"
 
 namespace ivo::drivers {
 
@@ -40,7 +40,7 @@ struct EdsSection {
 
 [[nodiscard]] EdsSection eds_section(std::string_view name) noexcept;
 /// As an EDS names it: "1018sub1", or "1018" of the object itself.
-[[nodiscard]] ShortText<40> section_name(ObjectAddress address, bool sub) noexcept;
+[[nodiscard]] ShortString<40> section_name(ObjectAddress address, bool sub) noexcept;
 
 enum class EdsKey : std::uint8_t {
   kParameterName,

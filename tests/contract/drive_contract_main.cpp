@@ -34,12 +34,18 @@ std::string parse(std::span<const char* const> arguments, Options& options) {
       continue;
     }
     const std::string_view value = i + 1 < arguments.size() ? arguments[++i] : "";
-    if (name == "--can" && !value.empty()) {
+    bool taken = false;
+    if (name == "--can") {
       options.interface = value;
-    } else if (name == "--node" && take_number(value, 1, 127, options.node_id)) {
-    } else if (name == "--master" && take_number(value, 1, 127, options.master_node_id)) {
-    } else if (name == "--speed" && take_number(value, -1'000'000, 1'000'000, options.speed) && options.speed != 0) {
-    } else {
+      taken = !value.empty();
+    } else if (name == "--node") {
+      taken = take_number(value, 1, 127, options.node_id);
+    } else if (name == "--master") {
+      taken = take_number(value, 1, 127, options.master_node_id);
+    } else if (name == "--speed") {
+      taken = take_number(value, -1'000'000, 1'000'000, options.speed) && options.speed != 0;
+    }
+    if (!taken) {
       return "\"" + std::string(name) + " " + std::string(value) +
              "\"; expected --can IFACE --node 1..127 [--master 1..127] [--speed UNITS] [--move]";
     }

@@ -104,9 +104,9 @@ TEST(EdsReader, KeepsTheBeginningOfALongString) {
 }
 
 struct NumberCase {
-  DataType type;
-  const char* text;
-  EdsNumberStatus status;
+  DataType type{};
+  const char* text = "";
+  EdsNumberStatus status{};
   std::int64_t value = 0;
 };
 
@@ -175,11 +175,6 @@ TEST(EdsReader, KnowsTheSizesOfAllBasicTypes) {
     EXPECT_EQ(bytes_of(static_cast<DataType>(type)), bytes) << type;
   }
 }
-
-struct Refused {
-  const char* text;
-  const char* complaint;
-};
 
 const std::string kIdentity = "[1018]\nParameterName=I\nObjectType=9\nSubNumber=2\n";  // 4 lines
 const std::string kSub0 = "[1018sub0]\nParameterName=N\nDataType=5\nAccessType=ro\n";  // 4 lines

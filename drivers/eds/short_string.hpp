@@ -10,12 +10,12 @@
 namespace ivo::drivers {
 
 template <std::size_t Capacity>
-class ShortText {
+class ShortString {
   static_assert(Capacity < 256);
 
  public:
-  constexpr ShortText() noexcept = default;
-  explicit constexpr ShortText(std::string_view text) noexcept
+  constexpr ShortString() noexcept = default;
+  explicit constexpr ShortString(std::string_view text) noexcept
       : size_(static_cast<std::uint8_t>(std::min(text.size(), Capacity))) {
     std::copy_n(text.begin(), size_, characters_.begin());
   }
