@@ -258,6 +258,47 @@ TEST_F(FaultyDrive, AnEmergencyStormIsOneAMillisecondAndEmcyInhibitTimeTamesIt) 
   EXPECT_LE(of(0x083, history_).size(), 11U);
 }
 
+TEST_F(FaultyDrive, TellsOfAnErrorOnceAndOfItsEndOnce) {
+  cycle();
+  history_.clear();
+  for (int i = 0; i < 5; ++i) {
+    hear({.id = 0x203, .size = 4, .data = {0x06}});
+    hear(sync_frame());
+  }
+  std::vector<hal::CanFrame> emergencies = of(0x083, sent_);
+  ASSERT_EQ(emergencies.size(), 1U);
+  EXPECT_EQ(load<std::uint16_t>(emergencies[0].data), 0x8210);
+  EXPECT_EQ(emergencies[0].data[2], 0x11) << "generic and communication";
+  cycle(2);
+  emergencies = of(0x083, history_);
+  ASSERT_EQ(emergencies.size(), 1U);
+  EXPECT_EQ(load<std::uint16_t>(emergencies[0].data), 0);
+  EXPECT_EQ(emergencies[0].data[2], 0);
+}
+
+TEST_F(FaultyDrive, SaysThatItsMasterIsBackOnlyWhenNothingElseIsWrong) {
+  write(object::kConsumerHeartbeat, 4, 127U << 16 | 10U);
+  write({0x1029, 1}, 1, 1);
+  const hal::CanFrame beat = heartbeat_frame(127, NmtState::kOperational);
+  hear(beat);
+  cycle(6);
+  set(SimFault::kFault, 0x3210);
+  history_.clear();
+  cycle(2);
+  hear(beat);
+  cycle(2);
+  EXPECT_EQ(of(0x083, history_).size(), 1U) << "the drive's own fault; the other is gone, but not all are";
+  EXPECT_EQ(read(object::kErrorRegister).data, 0x05U);
+  word_ = 0;
+  cycle(2);
+  hear(beat);
+  word_ = cia402::controlword::kFaultReset;
+  history_.clear();
+  cycle(2);
+  ASSERT_EQ(of(0x083, history_).size(), 1U);
+  EXPECT_EQ(load<std::uint16_t>(of(0x083, history_)[0].data), 0);
+}
+
 TEST_F(FaultyDrive, ARebootTakesAsLongAsItSays) {
   enable();
   set(SimFault::kReboot, 50);
