@@ -49,7 +49,7 @@ Result<void> check_drive_eds(const Robot& robot, Wheel wheel) {
     return dictionary.error();
   }
   const drivers::DictionaryFindings findings = drivers::check_dictionary(
-      *dictionary.value(), drivers::startup_steps(drive, robot.master_node_id), drive.node_id);
+      *dictionary.value(), drivers::startup_steps(robot, wheel), drive.node_id);
   if (findings.empty()) {
     return {};
   }

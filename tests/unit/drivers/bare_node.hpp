@@ -329,7 +329,7 @@ class BareNode {
   }
 
   void transmit(std::uint16_t id, std::uint16_t mapping, Instant now) {
-    power.at_rest(false);  // it turns no wheel: every quick stop is over at once
+    power.at_rest();  // it turns no wheel: every quick stop is over at once
     set(0x6041, 0, 2, std::uint32_t{cia402::statusword_bits(power.state())} | 0x0210);
     hal::CanFrame frame{.id = id, .size = 0, .data = {}};
     for (std::uint32_t n = 1; n <= get(mapping, 0); ++n) {
