@@ -34,7 +34,8 @@ struct DictionaryFinding {
 inline constexpr std::size_t kFindings = 32;
 using DictionaryFindings = StaticVector<DictionaryFinding, kFindings>;
 
-/// What a step may be refused is not looked at. Cost: a search in the table for each step.
+/// What a drive may refuse is not looked at, nor what is for another mode than its own; PDOs need not be mappable where
+/// one of the drive's is right as it is (pdo_search.hpp). Cost: a search in the table for each step.
 [[nodiscard]] DictionaryFindings check_dictionary(const EdsDictionary& eds, const StartupSteps& steps,
                                                   std::uint8_t node_id) noexcept;
 

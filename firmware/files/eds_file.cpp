@@ -48,8 +48,8 @@ Result<void> check_drive_eds(const Robot& robot, Wheel wheel) {
   if (!dictionary) {
     return dictionary.error();
   }
-  const drivers::DictionaryFindings findings = drivers::check_dictionary(
-      *dictionary.value(), drivers::startup_steps(robot, wheel), drive.node_id);
+  const drivers::DictionaryFindings findings =
+      drivers::check_dictionary(*dictionary.value(), drivers::startup_steps(robot, wheel), drive.node_id);
   if (findings.empty()) {
     return {};
   }

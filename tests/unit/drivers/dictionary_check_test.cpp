@@ -41,6 +41,35 @@ std::string findings(const std::string& section, const std::string& from, const 
 
 TEST(DictionaryCheck, FindsNothingWrongWithTheShippedDrive) { EXPECT_EQ(findings("1000", "0x1", "0x1"), ""); }
 
+TEST(DictionaryCheck, FindsNothingWrongWithAFixedMappingThatIsRightAsItIs) {
+  EXPECT_EQ(findings(std::string(fixed_mapping_drive_eds_text())), "");
+}
+
+TEST(DictionaryCheck, FindsAFixedMappingThatIsNotWhatIsNeeded) {
+  const std::string text(fixed_mapping_drive_eds_text());
+  const std::string other = findings(replaced(text, "[1603sub2]", "0x60FF0020", "0x607F0020"));
+  EXPECT_EQ(other.substr(0, 84),
+            "object 1400h:1 is read-only; expected it writable, for \"disable RPDO1 1400h:1\"\nobjec");
+  EXPECT_EQ(other.find("TPDO"), std::string::npos) << "feedback is right as it is";
+  EXPECT_NE(findings(replaced(text, "[1403sub2]", "AccessType=rw", "AccessType=ro")), "") << "its type is 255";
+}
+
+TEST(DictionaryCheck, FindsThatTargetsCannotBeShared) {
+  Robot robot = test_robot();
+  robot.pdo_layout = PdoLayout::kShared;
+  const auto eds = std::make_unique<EdsDictionary>();
+  std::string text(ivo_drive_eds_text());
+  ASSERT_FALSE(read_eds(text, *eds).has_value());
+  EXPECT_TRUE(check_dictionary(*eds, startup_steps(robot, Wheel::kFrontRight), 2).empty());
+  text = replaced(replaced(text, "[DummyUsage]", "Dummy0004=1", "Dummy0004=0"), "[DummyUsage]", "Dummy0007=1",
+                  "Dummy0007=0");
+  ASSERT_FALSE(read_eds(text, *eds).has_value());
+  const DictionaryFindings found = check_dictionary(*eds, startup_steps(robot, Wheel::kFrontRight), 2);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(describe(found[0]).substr(0, 74),
+            "object 1601h:1 is to map 0007h with 32 bits; expected it mappable so, for ");
+}
+
 TEST(DictionaryCheck, FindsAnObjectThatIsMissing) {
   const std::string text = replaced(std::string(ivo_drive_eds_text()), "[OptionalObjects]", "=0x60FF", "=0x60FE");
   EXPECT_EQ(findings(replaced(text, "[60FF]", "[60FF]", "[60FE]")).substr(0, 39),
@@ -67,9 +96,13 @@ TEST(DictionaryCheck, FindsLimitsThatForbidWhatWillBeWritten) {
 }
 
 TEST(DictionaryCheck, FindsWhatCannotBeMapped) {
-  EXPECT_EQ(findings("60FF", "PDOMapping=1", "PDOMapping=0").substr(0, 82),
+  // Neither is one of the drive's PDOs right as it is.
+  std::string text = replaced(std::string(ivo_drive_eds_text()), "[1603sub2]", "0x60FF0020", "0x607F0020");
+  text = replaced(text, "[1A02sub2]", "0x60640020", "0x606C0020");
+  EXPECT_EQ(findings(text), "");
+  EXPECT_EQ(findings(replaced(text, "[60FF]", "PDOMapping=1", "PDOMapping=0")).substr(0, 82),
             "object 1600h:2 is to map 60FFh with 32 bits; expected it mappable so, for \"map tar");
-  EXPECT_EQ(findings("6064", "AccessType=ro", "AccessType=rww").substr(0, 39),
+  EXPECT_EQ(findings(replaced(text, "[6064]", "AccessType=ro", "AccessType=rww")).substr(0, 39),
             "object 1A00h:2 is to map 6064h with 32 ")
       << "into a TPDO";
 }

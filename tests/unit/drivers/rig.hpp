@@ -50,8 +50,10 @@ class NarrowBus final : public hal::CanBus {
 class Rig {
  public:
   explicit Rig(const SimDrives::Scripts& scripts = {}, const Robot& robot_parameters = test_robot(),
-               SimDrives::TimeFrom time_from = SimDrives::TimeFrom::kClock)
-      : robot(robot_parameters), drives(bus.port(1), robot, time_from, scripts), group(narrow, robot) {
+               SimDrives::TimeFrom time_from = SimDrives::TimeFrom::kClock, const EdsDictionary& eds = ivo_drive_eds())
+      : robot(robot_parameters),
+        drives(bus.port(1), robot, time_from, scripts, {&eds, &eds, &eds, &eds}),
+        group(narrow, robot) {
     drives.open();
     group.open(clock.now());
   }

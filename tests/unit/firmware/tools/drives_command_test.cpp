@@ -2,8 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <cstdio>
+#include <fstream>
 #include <sstream>
+#include <string>
 #include <vector>
+
+#include "drivers/canopen/nmt.hpp"
+#include "firmware/tools/drives_log.hpp"
+#include "hal/sim/virtual_bus.hpp"
 
 namespace ivo::firmware {
 namespace {
@@ -31,6 +39,54 @@ TEST(DrivesCommand, RefusesWrongArgumentsInOneLineThatNamesThem) {
   EXPECT_EQ(parse({"--can", "c", "--clock", "fast"}).error().message, "--clock is real or sync, not \"fast\"");
   EXPECT_EQ(parse({"--bus", "c"}).error().message,
             "unknown argument \"--bus\": expected --can, --robot, --eds, --script, --log or --clock");
+}
+
+TEST(DrivesCommand, TakesFilesThatSayWhatTheDrivesAreAndDo) {
+  const auto options = parse({"--eds", "d.eds", "--script", "s.toml", "--log", "l.txt", "--can", "can1"});
+  ASSERT_TRUE(options.ok());
+  EXPECT_EQ(options.value().eds_path, "d.eds");
+  EXPECT_EQ(options.value().script_path, "s.toml");
+  EXPECT_EQ(options.value().log_path, "l.txt");
+}
+
+TEST(DrivesCommand, RefusesFilesThatAreNotThereBeforeItTouchesTheBus) {
+  for (std::string DrivesOptions::*path :
+       {&DrivesOptions::eds_path, &DrivesOptions::script_path, &DrivesOptions::log_path}) {
+    DrivesOptions options;
+    options.interface = "can7";
+    options.*path = "/there/is/nothing";
+    std::ostringstream out;
+    const std::atomic<bool> stop{true};
+    const auto ran = run_drives(options, stop, out);
+    ASSERT_FALSE(ran.ok());
+    EXPECT_EQ(ran.error().message.find("can7"), std::string::npos) << ran.error().message;
+    EXPECT_NE(ran.error().message.find("/there/is/nothing"), std::string::npos) << ran.error().message;
+  }
+}
+
+TEST(DrivesLog, HasALineForEachChangeAndNoneTwice) {
+  const std::string path = testing::TempDir() + "ivo_drives_log.txt";
+  hal::VirtualBus bus;
+  drivers::SimDrives drives(bus.port(1), Robot{}, drivers::SimDrives::TimeFrom::kClock);
+  drives.open();
+  DrivesLog log;
+  ASSERT_TRUE(log.open(path).ok());
+  log.write(drives);
+  log.write(drives);
+  const hal::CanFrame stop = drivers::nmt_frame({drivers::NmtCommand::kStop, 2});
+  bus.port(0).send({&stop, 1}, Instant{});
+  drives.update(Instant(std::chrono::milliseconds(1500)));
+  log.write(drives);
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  EXPECT_EQ(text.str(),
+            "t_s=0.000000 node=1 nmt=pre_operational power=switch_on_disabled velocity=0 wheel=rests\n"
+            "t_s=0.000000 node=2 nmt=pre_operational power=switch_on_disabled velocity=0 wheel=rests\n"
+            "t_s=0.000000 node=3 nmt=pre_operational power=switch_on_disabled velocity=0 wheel=rests\n"
+            "t_s=0.000000 node=4 nmt=pre_operational power=switch_on_disabled velocity=0 wheel=rests\n"
+            "t_s=1.500000 node=2 nmt=stopped power=switch_on_disabled velocity=0 wheel=rests\n");
+  std::remove(path.c_str());
 }
 
 TEST(DrivesCommand, RefusesARobotFileThatIsNotThereBeforeItTouchesTheBus) {
