@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "firmware/files/json_value.hpp"
@@ -18,7 +19,12 @@ std::string number(double value) {
   return format("%.*f", decimals, value);
 }
 
+bool skipped(const Record& record) { return !record.value && record.text.empty(); }
+
 std::string cell_of(const Record& record) {
+  if (!record.value) {
+    return record.text + (record.holds.value_or(true) ? "" : " (NOT EXPECTED)");
+  }
   std::string text = number(*record.value);
   if (record.target) {
     text += (record.target->sense == Sense::kAtMost ? " (<= " : " (>= ") + number(record.target->value) +
@@ -63,7 +69,8 @@ class Table {
   [[nodiscard]] bool has(const std::string& head) const {
     return !rows_.empty() && std::find(rows_[0].begin() + 1, rows_[0].end(), head) != rows_[0].end();
   }
-  void open(const std::string& name) { rows_ = {{name}}; }
+  [[nodiscard]] bool is(const std::string& title) const { return !rows_.empty() && rows_[0][0] == title; }
+  void open(const std::string& title) { rows_ = {{title}}; }
   void begin_row(const std::string& name) { rows_.push_back({name}); }
   void set(const std::string& head, const std::string& cell) {
     if (!has(head)) {
@@ -92,18 +99,19 @@ std::string table_of(std::span<const Record> records) {
   Table table;
   for (std::size_t i = 0; i < records.size();) {
     const Record& first = records[i];
-    if (!first.value) {
+    if (skipped(first)) {
       table.close(text);
       text += first.case_name + ": " + first.figure + "\n";
       ++i;
       continue;
     }
-    if (!table.has(head_of(first))) {
+    const std::string title = first.bench + (first.clock.empty() ? "" : ": " + first.clock);
+    if (!table.has(head_of(first)) || !table.is(title)) {
       table.close(text);
-      table.open(first.bench);
+      table.open(title);
     }
     table.begin_row(first.case_name);
-    for (; i < records.size() && records[i].value && records[i].case_name == first.case_name; ++i) {
+    for (; i < records.size() && !skipped(records[i]) && records[i].case_name == first.case_name; ++i) {
       table.set(head_of(records[i]), cell_of(records[i]));
     }
   }
@@ -114,13 +122,19 @@ std::string table_of(std::span<const Record> records) {
 std::string json_of(std::span<const Record> records) {
   Json list = Json::list();
   for (const Record& record : records) {
-    list.elements.push_back({{"bench", record.bench},
-                             {"case", record.case_name},
-                             {"figure", record.figure},
-                             {"value", json_or_null(record.value)},
-                             {"unit", record.unit},
-                             {"target", record.target ? Json(record.target->value) : Json()},
-                             {"holds", json_or_null(record.holds)}});
+    Json element = {{"bench", record.bench},
+                    {"case", record.case_name},
+                    {"figure", record.figure},
+                    {"value", json_or_null(record.value)},
+                    {"unit", record.unit},
+                    {"target", record.target ? Json(record.target->value) : Json()},
+                    {"holds", json_or_null(record.holds)}};
+    for (const auto& [name, text] : {std::pair("text", &record.text), std::pair("clock", &record.clock)}) {
+      if (!text->empty()) {
+        element.members.emplace_back(name, *text);
+      }
+    }
+    list.elements.push_back(std::move(element));
   }
   return json_text(list);
 }
