@@ -78,8 +78,8 @@ Result<std::unique_ptr<FaultRig>> FaultRig::make(const Options& options) {
   if (!setup) {
     return setup.error();
   }
-  std::unique_ptr<FaultRig> rig(
-      new FaultRig(options, robot, std::move(master).value(), std::move(drives).value(), std::move(injector).value()));
+  std::unique_ptr<FaultRig> rig(new FaultRig(options, robot, std::move(master).value(), std::move(drives).value(),
+                                             std::move(injector).value(), std::move(delivery).value()));
   rig->loop_ = std::make_unique<ControlLoop>(setup.value(), the_planner(), rig->tap_);
   return rig;
 }

@@ -91,7 +91,7 @@ class FaultRig {
 
  private:
   FaultRig(const Options& options, const Robot& robot, hal::SocketCanBus master, hal::SocketCanBus drives,
-           Injector injector);
+           Injector injector, Delivery delivery);
 
   void deliver();
   void pass_period();
