@@ -1,10 +1,12 @@
 #include "firmware/tools/bench/bench_report.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
 
+#include "firmware/files/json_reading.hpp"
 #include "firmware/files/json_value.hpp"
 #include "firmware/tools/terminal.hpp"
 
@@ -12,6 +14,8 @@ namespace ivo::firmware::bench {
 namespace {
 
 using Row = std::vector<std::string>;
+
+constexpr std::array<const char*, 2> kSenses = {"at most", "at least"};
 
 std::string number(double value) {
   const double size = std::abs(value);
@@ -129,6 +133,9 @@ std::string json_of(std::span<const Record> records) {
                     {"unit", record.unit},
                     {"target", record.target ? Json(record.target->value) : Json()},
                     {"holds", json_or_null(record.holds)}};
+    if (record.target) {
+      element.members.emplace_back("sense", kSenses[static_cast<std::size_t>(record.target->sense)]);
+    }
     for (const auto& [name, text] : {std::pair("text", &record.text), std::pair("clock", &record.clock)}) {
       if (!text->empty()) {
         element.members.emplace_back(name, *text);
@@ -137,6 +144,57 @@ std::string json_of(std::span<const Record> records) {
     list.elements.push_back(std::move(element));
   }
   return json_text(list);
+}
+
+namespace {
+
+std::optional<double> number_or_none(JsonReading& reading, const Json& object, const std::string& at, const char* key) {
+  constexpr double kMost = 1e300;
+  const Json* const value = reading.field(object, at, key);
+  if (value == nullptr || value->kind == Json::Kind::kNull) {
+    return std::nullopt;
+  }
+  return reading.number(value, at + key, -kMost, kMost);
+}
+
+Record record_in(JsonReading& reading, const Json& object, const std::string& at) {
+  Record record{.bench = reading.text(object, at, "bench"),
+                .case_name = reading.text(object, at, "case"),
+                .figure = reading.text(object, at, "figure"),
+                .value = number_or_none(reading, object, at, "value"),
+                .unit = reading.text(object, at, "unit"),
+                .target = std::nullopt,
+                .holds = std::nullopt};
+  if (const Json* const holds = object.member("holds"); holds != nullptr && holds->kind == Json::Kind::kFlag) {
+    record.holds = holds->flag;
+  }
+  if (const std::optional<double> target = number_or_none(reading, object, at, "target"); target && record.value) {
+    record.target = Target{*target, static_cast<Sense>(reading.choice(object, at, "sense", kSenses))};
+  }
+  for (const auto& [key, text] : {std::pair("text", &record.text), std::pair("clock", &record.clock)}) {
+    if (object.member(key) != nullptr) {
+      *text = reading.text(object, at, key);
+    }
+  }
+  return record;
+}
+
+}  // namespace
+
+Result<std::vector<Record>> records_of(const std::string& json, const std::string& path) {
+  const Result<Json> document = parse_json(json, path, "a list of figures");
+  if (!document) {
+    return document.error();
+  }
+  JsonReading reading(path);
+  std::vector<Record> records;
+  for (std::size_t i = 0; i < document.value().elements.size() && reading.ok(); ++i) {
+    records.push_back(record_in(reading, document.value().elements[i], element("", i) + "."));
+  }
+  if (records.empty()) {
+    reading.fault("figures", "none; expected at least one");
+  }
+  return reading.ok() ? Result<std::vector<Record>>(records) : Result<std::vector<Record>>(reading.error());
 }
 
 }  // namespace ivo::firmware::bench

@@ -3,7 +3,9 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
+#include "config/base/result.hpp"
 #include "firmware/tools/bench/bench.hpp"
 
 namespace ivo::firmware::bench {
@@ -14,5 +16,8 @@ namespace ivo::firmware::bench {
 
 /// A list with a record a figure, as config/schemas/bench.schema.json says.
 [[nodiscard]] std::string json_of(std::span<const Record> records);
+
+/// What json_of wrote; `path` is for the complaint.
+[[nodiscard]] Result<std::vector<Record>> records_of(const std::string& json, const std::string& path);
 
 }  // namespace ivo::firmware::bench
