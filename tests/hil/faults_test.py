@@ -107,7 +107,10 @@ class Faults(unittest.TestCase):
                 self.assertIn("clock", record)
 
     def test_a_cycle_is_two_system_calls(self):
-        self.assertEqual(self.cases["system calls"]["a cycle"]["value"], 2)
+        calls = {figure: record["value"] for figure, record in self.cases["system calls a cycle"].items()}
+        # A user-mode Linux kernel lends nobody its clock, so that reading it is a call there.
+        self.assertLessEqual(calls.pop("clock_gettime"), 1)
+        self.assertEqual(calls, {"recvmmsg and sendmmsg": 2, "others": 0})
 
     def test_no_frame_of_a_full_cycle_is_lost(self):
         cycle = self.cases["receive 9 and send 10 frames"]

@@ -14,6 +14,7 @@ void can(const Options& options, Sheet& sheet) {
   }
   cycle_cost(options, sheet);
   frames_a_second(options, sheet);
+  bus_load(options, sheet);
   fault_table(sheet);
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "config/rates.hpp"
+#include "drivers/canopen/bus_ids.hpp"
 #include "firmware/tools/bench/can/tool.hpp"
 #include "firmware/tools/planner_object.hpp"
 
@@ -62,18 +63,20 @@ Result<std::unique_ptr<FaultRig>> FaultRig::make(const Options& options) {
       }
     }
   }
-  Result<hal::SocketCanBus> master = hal::SocketCanBus::open(kMasterSide);
-  Result<hal::SocketCanBus> drives = hal::SocketCanBus::open(options.gateway ? kOtherSide : kMasterSide);
+  Robot robot;
+  for (DriveParameters& drive : robot.drives) {
+    drive.vendor_id = kVendorId;
+  }
+  const drivers::BusIds heard = drivers::bus_ids(robot);
+  Result<hal::SocketCanBus> master = hal::SocketCanBus::open(kMasterSide, {.ids = heard.span()});
+  Result<hal::SocketCanBus> drives =
+      hal::SocketCanBus::open(options.gateway ? kOtherSide : kMasterSide, {.confirm = false});
   Result<Injector> injector = Injector::open(kMasterSide);
   Result<Delivery> delivery = Delivery::open(kOtherSide);
   if (!master || !drives || !injector || !delivery) {
     return !master ? master.error() : !drives ? drives.error() : !injector ? injector.error() : delivery.error();
   }
   stay_on_one_cpu();
-  Robot robot;
-  for (DriveParameters& drive : robot.drives) {
-    drive.vendor_id = kVendorId;
-  }
   const Result<LoopSetup> setup = prepare_search(robot);
   if (!setup) {
     return setup.error();
@@ -143,6 +146,8 @@ void FaultRig::pass_period() {
   drives_->update(now_);
   deliver();
   now_ += rates::kCycle;
+  master_.look_at_interface();  // as a watch beside the loop does
+  drives_bus_.look_at_interface();
 }
 
 void FaultRig::run(Duration time) {

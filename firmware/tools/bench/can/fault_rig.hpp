@@ -63,9 +63,12 @@ class FaultRig {
   drivers::SimDrives& drives() { return *drives_; }
   drivers::SimDrive& drive(Wheel wheel) { return drives_->drive(wheel); }
   Injector& injector() { return injector_; }
+  /// The drives answer, and 2 ms have passed: the end of a cycle, also of one without a loop.
+  void pass_period();
+  /// The bus that the loop is given.
+  TappedBus& tap() noexcept { return tap_; }
   /// What the loop handed to its bus in the last cycle.
   [[nodiscard]] const std::vector<hal::CanFrame>& sent() const noexcept { return tap_.sent(); }
-  [[nodiscard]] hal::SocketCanBus& socket() noexcept { return master_; }
 
   // To provoke with.
   MeddledBus& meddle() { return meddled_; }
@@ -94,7 +97,6 @@ class FaultRig {
            Injector injector, Delivery delivery);
 
   void deliver();
-  void pass_period();
 
   Robot robot_;
   bool gateway_;

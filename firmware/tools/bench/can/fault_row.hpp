@@ -19,6 +19,8 @@ enum class Outcome : std::uint8_t {
   kStopsBus,  ///< as kStops, but nobody can be told: the drives stop because our heartbeat is missing
 };
 
+struct FaultFigures;
+
 struct FaultRow {
   int number = 0;    ///< 1 to 28: of the list of bus faults
   std::string name;  ///< what happens; of the rows of one number each its own
@@ -27,11 +29,14 @@ struct FaultRow {
   Duration detected_within{};  ///< of simulated time, from the provocation; not for kGoesOn and kNoStart
   std::function<void(FaultRig&)> provoke;
   std::function<void(FaultRig&)>
-      mend{};            ///< what a person does before the fault is cleared; none: it is over by itself
-  bool recovers = true;  ///< moves again once mended, cleared and agreed to
-  bool gateway = false;  ///< with cangw between loop and drives
-  std::function<bool(FaultRig&)> detected{};  ///< instead of the loop's mode being fault
-  std::string skip{};                         ///< why it is not provoked here; empty: it is
+      mend{};                 ///< what a person does before the fault is cleared; none: it is over by itself
+  bool recovers = true;       ///< moves again once mended, cleared and agreed to
+  bool loses_frames = false;  ///< on the way in, and they are to be counted
+  bool gateway = false;       ///< with cangw between loop and drives
+  std::function<bool(FaultRig&)> detected{};        ///< instead of the loop's mode being fault
+  Duration rest_within{};                           ///< from the provocation, instead of the quick stop's ramp; 0: that
+  std::function<Result<FaultFigures>()> instead{};  ///< tried in this way, of its own
+  std::string skip{};                               ///< why it is not provoked here; empty: it is
 };
 
 /// Every row, by number.

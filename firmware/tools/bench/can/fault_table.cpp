@@ -47,6 +47,12 @@ void add_row(Sheet& sheet, const FaultRow& row) {
   } else {
     sheet.add(name, "goes on", figures.moves_again ? 1.0 : 0.0, "", Target{1.0, Sense::kAtLeast});
   }
+  if (row.loses_frames) {
+    sheet.add(name, "frames lost, counted", static_cast<double>(figures.frames_lost), "", Target{1.0, Sense::kAtLeast});
+  }
+  if (figures.ready_ms) {
+    sheet.add(name, "ready again", *figures.ready_ms, "ms");
+  }
   sheet.add_text(name, "says", figures.says, fnmatch(row.says.c_str(), figures.says.c_str(), 0) == 0);
 }
 

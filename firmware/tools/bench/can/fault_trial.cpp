@@ -14,6 +14,7 @@ using std::chrono_literals::operator""ms;
 using std::chrono_literals::operator""s;
 
 constexpr Duration kGoesOnFor = 2s;
+constexpr Duration kStopLimit = 5s;
 constexpr Duration kStartLimit = 30s;
 constexpr Duration kWatched = 1s;  // for what moves unasked, after the stop and again after clearing
 constexpr Duration kReadyLimit = 30s;
@@ -62,7 +63,6 @@ class Trial {
         return Error{"the robot did not come to drive: " + drivers::describe(rig_.status().drive_fault)};
       }
       provoked_ = rig_.now();
-      figures_.rest_limit_ms = rest_limit_ms();
       row_.provoke(rig_);
       if (row_.outcome == Outcome::kGoesOn) {
         go_on();
@@ -70,6 +70,7 @@ class Trial {
         stop();
       }
     }
+    figures_.frames_lost = rig_.status().counters.bus.receive_dropped;
     if (!rig_.complaint().empty()) {
       return Error{rig_.complaint()};
     }
@@ -79,11 +80,14 @@ class Trial {
  private:
   [[nodiscard]] double since_provoked_ms() const { return ms_of(rig_.now() - provoked_); }
 
-  double rest_limit_ms() {
-    const double ramp_s = rig_.rim_speed_mps() / rig_.robot().limits.quick_stop_mps2;
+  /// Until they are told, or miss our heartbeat, the wheels may gather speed.
+  [[nodiscard]] double rest_limit_ms() const {
     const Duration told = row_.outcome == Outcome::kStopsBus ? rates::kMasterHeartbeatTimeout + rates::kMasterHeartbeat
                                                              : row_.detected_within;
-    return ms_of(told + kCyclesToAct * rates::kCycle) + ramp_s * 1e3;
+    if (row_.rest_within > Duration::zero()) {
+      return ms_of(row_.rest_within);
+    }
+    return ms_of(told + kCyclesToAct * rates::kCycle) + fastest_mps_ / rig_.robot().limits.quick_stop_mps2 * 1e3;
   }
 
   bool detected() { return row_.detected ? row_.detected(rig_) : rig_.status().mode == Mode::kFault; }
@@ -112,8 +116,10 @@ class Trial {
   void stop() {
     std::optional<int> told;  // cycles since detection with the last command that did not stop
     int cycles = 0;
+    fastest_mps_ = rig_.rim_speed_mps();
     rig_.run_until(
         [&](FaultRig& rig) {
+          fastest_mps_ = std::max(fastest_mps_, rig.rim_speed_mps());
           if (!figures_.detected_ms && detected()) {
             figures_.detected_ms = since_provoked_ms() - ms_of(rates::kCycle);  // the cycle has passed already
           }
@@ -126,8 +132,9 @@ class Trial {
           }
           return figures_.detected_ms && figures_.rest_ms;
         },
-        5s);
+        kStopLimit + row_.detected_within + row_.rest_within);
     figures_.told_cycles = told;
+    figures_.rest_limit_ms = rest_limit_ms();
     figures_.says = drivers::describe(rig_.status().drive_fault);
     if (figures_.detected_ms && figures_.rest_ms) {
       rig_.run(kCyclesToAct * rates::kCycle);
@@ -177,12 +184,16 @@ class Trial {
   const FaultRow& row_;
   FaultRig& rig_;
   Instant provoked_{};
+  double fastest_mps_ = 0.0;  // of a rim, since then
   FaultFigures figures_;
 };
 
 }  // namespace
 
 Result<FaultFigures> try_fault(const FaultRow& row) {
+  if (row.instead) {
+    return row.instead();
+  }
   Result<std::unique_ptr<FaultRig>> rig = FaultRig::make({.gateway = row.gateway});
   if (!rig) {
     return rig.error();

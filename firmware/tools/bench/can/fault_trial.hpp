@@ -18,6 +18,7 @@ struct FaultFigures {
   double rest_limit_ms = 0.0;      ///< what rest_ms may be: detection, then the quick stop's ramp from that speed
   int unasked = 0;  ///< frames that could move a wheel, and cycles with a wheel that turns, after the stop and before
                     ///< somebody agreed anew
+  std::uint64_t frames_lost = 0;   ///< on the way in, as the operator sees them counted
   std::optional<double> ready_ms;  ///< from clearing to awaiting consent
   bool moves_again = false;        ///< or, where it goes on, has gone on
 };

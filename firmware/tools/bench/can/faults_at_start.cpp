@@ -65,6 +65,15 @@ std::vector<FaultRow> faults_at_start() {
           "drive 3 (rear left) failed at \"device type 1000h\": *",
           [](FaultRig& rig) { answers(rig, [](hal::CanFrame& frame) { frame.data[0] = 0xE0; }); }, no_meddling),
       at_start(
+          16, "SDO segments have the wrong toggle bit", "drive 3 (rear left) failed at \"*\": SDO abort 05030000h, *",
+          [](FaultRig& rig) {
+            (void)victim(rig).events.push_back({.fault = drivers::SimFault::kSdoSegmented});
+            (void)victim(rig).events.push_back({.fault = drivers::SimFault::kSdoToggle});
+          },
+          [](FaultRig& rig) {
+            (void)victim(rig).events.push_back({.at = rig.now(), .fault = drivers::SimFault::kSdoToggle, .on = false});
+          }),
+      at_start(
           17, "another make of drive",
           "drive 3 (rear left) failed at \"vendor-ID 1018h:1\": unexpected value 000000BBh",
           [](FaultRig& rig) {

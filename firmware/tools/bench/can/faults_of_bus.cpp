@@ -63,7 +63,7 @@ std::vector<FaultRow> faults_of_bus() {
            }},
       {.number = 4,
        .name = "the controller is error passive",
-       .says = "bus lost: the controller is error passive",
+       .says = "bus lost: error passive",
        .detected_within = kAtOnce,
        .provoke =
            [](FaultRig& rig) {
@@ -76,7 +76,7 @@ std::vector<FaultRow> faults_of_bus() {
       {.number = 4,
        .name = "nothing that is sent leaves: alone on the bus",
        .outcome = Outcome::kStopsBus,
-       .says = "drive 1 (front left): feedback lost: TPDO1 does not arrive",
+       .says = "commands do not get out: the transmit queue is full or the interface is down",
        .detected_within = rates::kFeedbackTimeout + kAtOnce,
        .provoke = lose_all_sent,
        .mend = unblock_queue},
@@ -126,7 +126,7 @@ std::vector<FaultRow> faults_of_bus() {
        .mend = add_interface},
       {.number = 7,
        .name = "the receive queue overflows",
-       .says = "* frames were lost on the way in: the receive queue overflowed",
+       .says = "bus flooded: 256 frames in one cycle",  // more than the queue holds is always a flood
        .detected_within = 10 * rates::kCycle,
        .provoke =
            [](FaultRig& rig) {

@@ -19,6 +19,13 @@ drivers::SimScript& victim(FaultRig& rig) { return rig.drive(kVictim).script(); 
 
 hal::CanFrame nmt(std::uint8_t command) { return {.id = 0x000, .size = 2, .data = {command, kVictimNode}}; }
 
+void begin(FaultRig& rig, Wheel wheel, drivers::SimFault fault, std::uint32_t value = 0) {
+  (void)rig.drive(wheel).script().events.push_back({.at = rig.now(), .fault = fault, .on = true, .value = value});
+}
+void end(FaultRig& rig, Wheel wheel, drivers::SimFault fault) {
+  (void)rig.drive(wheel).script().events.push_back({.at = rig.now(), .fault = fault, .on = false});
+}
+
 void keep_failing(FaultRig& rig) {
   const drivers::cia402::PowerState state = rig.drive(kVictim).power_state();
   const bool failed = state == drivers::cia402::PowerState::kFault;
@@ -84,6 +91,37 @@ std::vector<FaultRow> faults_of_drives() {
        .recovers = false,
        .detected =
            [](FaultRig& rig) { return rig.status().drive_fault.reason == drivers::DriveFaultReason::kResetLimit; }},
+      {.number = 20,
+       .name = "STO opens while driving",
+       .says = "drive 3 (rear left): left Operation Enabled unasked (statusword *h)",
+       .detected_within = kAtOnce,
+       .provoke = [](FaultRig& rig) { begin(rig, kVictim, drivers::SimFault::kStoOpen); },
+       .mend = [](FaultRig& rig) { end(rig, kVictim, drivers::SimFault::kStoOpen); }},
+      {.number = 20,
+       .name = "STO is open from the start",
+       .outcome = Outcome::kNoStart,
+       .says = "drive 3 (rear left): does not take power: is its STO or the emergency stop open? (statusword *h)",
+       .provoke =
+           [](FaultRig& rig) {
+             begin(rig, kVictim, drivers::SimFault::kStoOpen);
+             rig.each_cycle([cycles = 0](FaultRig& each) mutable {
+               if (++cycles % 100 == 0) {
+                 (void)each.loop().command(OperatorCommand::kConsent);
+               }
+             });
+           },
+       .mend = [](FaultRig& rig) { end(rig, kVictim, drivers::SimFault::kStoOpen); }},
+      {.number = 21,
+       .name = "a drive that does not slow down in a quick stop",
+       .says = "drive 1 (front left): emergency 7300h",
+       .detected_within = kAtOnce,
+       .provoke =
+           [](FaultRig& rig) {
+             begin(rig, kVictim, drivers::SimFault::kEndlessStop);
+             begin(rig, Wheel::kFrontLeft, drivers::SimFault::kFault);
+           },
+       .mend = [](FaultRig& rig) { end(rig, kVictim, drivers::SimFault::kEndlessStop); },
+       .rest_within = rates::kStandstillTimeout + 500ms},
       {.number = 28,
        .name = "one wheel's power is taken away",
        .says = "drive 3 (rear left): left Operation Enabled unasked (statusword 0250h)",

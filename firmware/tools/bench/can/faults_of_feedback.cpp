@@ -6,7 +6,6 @@
 
 #include "config/rates.hpp"
 #include "drivers/canopen/cob_id.hpp"
-#include "drivers/canopen/pdo.hpp"
 #include "firmware/tools/bench/can/fault_row.hpp"
 #include "firmware/tools/terminal.hpp"
 
@@ -95,9 +94,12 @@ void slip(FaultRig& rig, double mmps) {
   const double counts = turns_per_s * drive.gear_ratio * drive.counts_per_turn * seconds(rates::kCycle);
   rig.meddle().outgoing = [counts, drift = 0.0](Frames& frames) mutable {
     for (hal::CanFrame& frame : frames) {
-      if (const auto status = drivers::parse_tpdo1(frame); status && is_feedback(frame)) {
+      if (is_feedback(frame) && frame.size == 6) {
         drift += counts;
-        const auto position = static_cast<std::uint32_t>(status->position + static_cast<std::int32_t>(drift));
+        std::uint32_t position = static_cast<std::uint32_t>(static_cast<std::int32_t>(drift));
+        for (std::size_t i = 0; i < 4; ++i) {
+          position += std::uint32_t{frame.data[2 + i]} << (8 * i);
+        }
         for (std::size_t i = 0; i < 4; ++i) {
           frame.data[2 + i] = static_cast<std::uint8_t>(position >> (8 * i));
         }

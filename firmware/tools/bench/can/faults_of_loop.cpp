@@ -3,6 +3,7 @@
 
 #include "config/rates.hpp"
 #include "firmware/tools/bench/can/fault_row.hpp"
+#include "firmware/tools/bench/can/twist_trial.hpp"
 
 namespace ivo::firmware::bench {
 namespace {
@@ -19,6 +20,15 @@ bool no_drive_is_enabled(FaultRig& rig) {
     }
   }
   return true;
+}
+
+FaultRow wrong_command(const char* name, const char* says, WrongCommand wrong) {
+  return {.number = 25,
+          .name = name,
+          .says = says,
+          .detected_within = wrong == WrongCommand::kHugePastTheGate ? 7 * rates::kCycle : Duration::zero(),
+          .provoke = nullptr,
+          .instead = [wrong] { return try_command(wrong); }};
 }
 
 // In a network namespace the clock is the host's, and not ours to set.
@@ -68,6 +78,12 @@ std::vector<FaultRow> faults_of_loop() {
              });
            },
        .skip = why_no_clock_step()},
+      wrong_command("a twist that is not a number", "command not finite", WrongCommand::kNotANumber),
+      wrong_command("an infinite twist", "command not finite", WrongCommand::kInfinite),
+      wrong_command("a twist of 1e9 m/s", "too fast", WrongCommand::kHuge),
+      wrong_command("wheel speeds of 1e9 m/s past the first door",
+                    "commands do not get out: the transmit queue is full or the interface is down",
+                    WrongCommand::kHugePastTheGate),
   };
 }
 

@@ -1,11 +1,13 @@
 #include "firmware/tools/bench/can/syscall_count.hpp"
 
 #include <sys/ptrace.h>
+#include <sys/user.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <csignal>
+#include <cstddef>
 #include <cstring>
 #include <optional>
 
@@ -29,17 +31,43 @@ bool wait_for(pid_t child, int& status) {
   return got == child;
 }
 
-/// From stop to stop until the child has ended: each call stops it as it begins and as it ends. None when it failed.
-std::optional<int> stops_of(pid_t child) {
-  int stops = 0;
-  int status = 0;
-  while (ptrace(PTRACE_SYSCALL, child, nullptr, nullptr) == 0 && wait_for(child, status) && WIFSTOPPED(status)) {
-    stops += WSTOPSIG(status) == kAtCall ? 1 : 0;
-  }
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? std::optional(stops) : std::nullopt;
+/// Which call the child is about to make.
+std::optional<long> number_of_call(pid_t child) {
+#if defined(__x86_64__)
+  errno = 0;
+  const long number = ptrace(PTRACE_PEEKUSER, child, offsetof(user_regs_struct, orig_rax), nullptr);
+  return errno == 0 ? std::optional(number) : std::nullopt;
+#else
+  __ptrace_syscall_info info{};
+  const bool told = ptrace(PTRACE_GET_SYSCALL_INFO, child, sizeof info, &info) > 0;
+  return told && info.op == PTRACE_SYSCALL_INFO_ENTRY ? std::optional(static_cast<long>(info.entry.nr)) : std::nullopt;
+#endif
 }
 
-Result<int> stops_with(const std::function<void()>& work) {
+/// From stop to stop until the child has ended: each call stops it as it begins and as it ends. None when it failed.
+std::optional<std::vector<long>> follow(pid_t child) {
+  std::vector<long> calls;
+  bool begins = true;
+  int status = 0;
+  while (ptrace(PTRACE_SYSCALL, child, nullptr, nullptr) == 0 && wait_for(child, status) && WIFSTOPPED(status)) {
+    if (WSTOPSIG(status) != kAtCall) {
+      continue;
+    }
+    if (begins) {
+      const std::optional<long> number = number_of_call(child);
+      if (!number) {
+        return std::nullopt;
+      }
+      calls.push_back(*number);
+    }
+    begins = !begins;
+  }
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? std::optional(calls) : std::nullopt;
+}
+
+}  // namespace
+
+Result<std::vector<long>> system_calls_of(const std::function<void()>& work) {
   const pid_t child = fork();
   if (child < 0) {
     return Error{std::string("no child to trace: ") + std::strerror(errno)};
@@ -51,21 +79,13 @@ Result<int> stops_with(const std::function<void()>& work) {
   const bool stopped = wait_for(child, status) && WIFSTOPPED(status);
   auto* const options = reinterpret_cast<void*>(PTRACE_O_TRACESYSGOOD | PTRACE_O_EXITKILL);
   if (stopped && ptrace(PTRACE_SETOPTIONS, child, nullptr, options) == 0) {
-    if (const std::optional<int> stops = stops_of(child)) {
-      return *stops;
+    if (std::optional<std::vector<long>> calls = follow(child)) {
+      return *std::move(calls);
     }
   }
   (void)kill(child, SIGKILL);
   (void)waitpid(child, &status, 0);
   return Error{"this kernel does not let a child be traced"};
-}
-
-}  // namespace
-
-Result<int> count_system_calls(const std::function<void()>& work) {
-  const Result<int> with = stops_with(work);
-  const Result<int> without = stops_with([] {});
-  return with && without ? Result<int>((with.value() - without.value()) / 2) : with ? without : with;
 }
 
 }  // namespace ivo::firmware::bench
