@@ -16,6 +16,7 @@
 #include "config/robot.hpp"
 #include "firmware/safety/mode.hpp"
 #include "hal/api/can_bus.hpp"
+#include "tests/support/shadow_frames.hpp"
 
 namespace ivo::test {
 
@@ -64,13 +65,12 @@ class ShadowModel {
       if (robot_.drives[i].node_id != node) {
         continue;
       }
-      const bool command = function == 0x600 || (function >= 0x200 && function <= 0x500 && function % 0x100 == 0);
-      if (command) {
+      if (function == 0x600 || shadow::is_rpdo(function)) {
         certain("another master");
       } else if (function == 0x080 && (frame.size != 8 || frame.data[0] != 0 || frame.data[1] != 0)) {
         certain("emergency");
-      } else if (function == 0x180 && frame.size == 6) {
-        drives_[i].statusword = static_cast<std::uint16_t>(frame.data[0] | frame.data[1] << 8);
+      } else if (shadow::is_tpdo(function) && frame.size == 6) {
+        drives_[i].statusword = shadow::word_in(frame);
         drives_[i].feedback_at = now_;
       } else if (function == 0x700 && frame.size == 1) {
         hear_heartbeat(drives_[i], frame.data[0] & 0x7F);
@@ -117,29 +117,8 @@ class ShadowModel {
   [[nodiscard]] std::uint64_t certain_events() const { return certain_events_; }
 
  private:
-  struct Drive {
-    std::uint16_t statusword = 0;
-    std::optional<Instant> feedback_at;
-    std::optional<Instant> heartbeat_at;
-    bool left_operational = false;  // as heard last in this cycle
-    std::uint16_t word = 0;         // last sent
-    double rim_mps = 0.0;           // last sent
-    [[nodiscard]] bool enabled() const { return (statusword & 0x6F) == 0x27; }
-    [[nodiscard]] bool faulty() const { return (statusword & 0x4F) == 0x08 || (statusword & 0x4F) == 0x0F; }
-  };
-  struct Batch {
-    int syncs = 0;
-    int commands = 0;
-    int enabling = 0;
-    int targets = 0;
-    int requests = 0;  // SDO
-    int orders = 0;    // NMT
-    bool sync_first = true;
-    bool heartbeat = false;
-    bool heartbeat_last = true;
-  };
-
-  static constexpr Duration ms(int count) { return std::chrono::milliseconds(count); }
+  using Drive = ShadowDrive;
+  using Batch = ShadowBatch;
 
   void expect(bool holds, const std::string& rule) {
     if (!holds) {
@@ -183,7 +162,7 @@ class ShadowModel {
   // More than any ramp of these drives takes after they have missed our heartbeat.
   void look_at_wheels(const Outside& outside) {
     if (outside.wheels_turn && stopped_at_ && !consented_ && !outside.moved_by_others) {
-      expect(now_ - *stopped_at_ < ms(700), "wheels turn long after a fault");
+      expect(now_ - *stopped_at_ < shadow::ms(700), "wheels turn long after a fault");
     }
   }
 
@@ -204,10 +183,10 @@ class ShadowModel {
         certain("drive left Operational");
       }
       drive.left_operational = false;
-      if (now_ - drive.feedback_at.value_or(now_) > ms(14)) {
+      if (now_ - drive.feedback_at.value_or(now_) > shadow::ms(14)) {
         certain("no feedback");
       }
-      if (now_ - drive.heartbeat_at.value_or(now_) > ms(156)) {
+      if (now_ - drive.heartbeat_at.value_or(now_) > shadow::ms(156)) {
         certain("no heartbeat");
       }
     }
@@ -227,7 +206,7 @@ class ShadowModel {
         if (frame.id == 0x600 + node) {
           ++batch.requests;
           look_at_request(frame);
-        } else if (frame.id == 0x200 + node) {
+        } else if ((frame.id & 0x7F) == node && shadow::is_rpdo(frame.id & 0x780)) {
           batch.sync_first = batch.sync_first && batch.syncs == 1;
           look_at_command(frame, i, batch);
         }
@@ -245,17 +224,15 @@ class ShadowModel {
 
   void look_at_command(const hal::CanFrame& frame, std::size_t i, Batch& batch) {
     Drive& drive = drives_[i];
-    const auto word = static_cast<std::uint16_t>(frame.data[0] | frame.data[1] << 8);
-    const auto target = static_cast<std::int32_t>(
-        static_cast<std::uint32_t>(frame.data[2]) | static_cast<std::uint32_t>(frame.data[3]) << 8 |
-        static_cast<std::uint32_t>(frame.data[4]) << 16 | static_cast<std::uint32_t>(frame.data[5]) << 24);
+    const std::uint16_t word = shadow::word_in(frame);
+    const std::int32_t target = shadow::target_in(frame);
     ++batch.commands;
     const bool enables = (word & 0x8F) == 0x0F;
     batch.enabling += enables ? 1 : 0;
     batch.targets += target != 0 ? 1 : 0;
     expect(target == 0 || enables, "a target without power");
     if ((word & 0x80) != 0 && (drive.word & 0x80) == 0) {
-      expect(last_clear_ && now_ - *last_clear_ <= ms(5000), "a fault reset that nobody asked for");
+      expect(last_clear_ && now_ - *last_clear_ <= shadow::ms(5000), "a fault reset that nobody asked for");
     }
     const DriveParameters& parameters = robot_.drives[i];
     const double rim = target / (parameters.velocity_per_radps * parameters.gear_ratio) * robot_.base.wheel_radius_m;

@@ -77,7 +77,7 @@ Result<std::vector<long>> system_calls_of(const std::function<void()>& work) {
   }
   int status = 0;
   const bool stopped = wait_for(child, status) && WIFSTOPPED(status);
-  auto* const options = reinterpret_cast<void*>(PTRACE_O_TRACESYSGOOD | PTRACE_O_EXITKILL);
+  constexpr long options = PTRACE_O_TRACESYSGOOD | PTRACE_O_EXITKILL;
   if (stopped && ptrace(PTRACE_SETOPTIONS, child, nullptr, options) == 0) {
     if (std::optional<std::vector<long>> calls = follow(child)) {
       return *std::move(calls);
