@@ -42,13 +42,13 @@ class Bench(unittest.TestCase):
     def test_without_a_name_the_benches_are_listed(self):
         done = ivo("bench")
         self.assertEqual(done.returncode, 0)
-        for name in ("table1", "speed", "quality", "scale", "all"):
+        for name in ("table1", "speed", "quality", "scale", "can", "all"):
             self.assertRegex(done.stdout, rf"(?m)^{name} +\w")
 
     def test_an_unknown_name_is_refused(self):
         done = ivo("bench", "fastest")
         self.assertEqual(done.returncode, 2)
-        self.assertRegex(done.stderr, r'^ivo: no bench is called "fastest"; expected table1, speed, quality, compare, scale, all\n$')
+        self.assertRegex(done.stderr, r'^ivo: no bench is called "fastest"; expected table1, speed, quality, compare, scale, can, all\n$')
         for path in ("/nowhere/records.json", os.path.dirname(self.json)):  # at once, not after the work
             done = ivo("bench", "all", "--json", path)
             self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1))

@@ -5,6 +5,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -23,6 +24,8 @@ class SearchRig {
     drivers::SimDrives::Scripts scripts{};
     int generations = 3;
     bool fault_waits = false;
+    /// What the loop is given in the place of its port of the bus; none: the port itself.
+    std::function<hal::CanBus&(hal::CanBus&)> between{};
   };
 
   explicit SearchRig(const Options& options)
@@ -35,7 +38,8 @@ class SearchRig {
     if (options.object) {
       setup.object = firmware::SearchObject(*options.object, FindRule::kSight);
     }
-    loop_ = std::make_unique<firmware::ControlLoop>(setup, planner(), bus_.port(0));
+    loop_ = std::make_unique<firmware::ControlLoop>(setup, planner(),
+                                                    options.between ? options.between(bus_.port(0)) : bus_.port(0));
     drives_.open();
     loop_->open(now_);
   }
@@ -48,6 +52,13 @@ class SearchRig {
     true_position_.x_m += velocity({1, 1, 1, 1}) * seconds(rates::kCycle);
     true_position_.y_m += velocity({-1, 1, 1, -1}) * seconds(rates::kCycle);
     return loop_->status();
+  }
+  /// `periods` pass before the next cycle, without one.
+  void be_late(int periods) {
+    for (; periods > 0; --periods) {
+      drives_.update(now_);
+      now_ += rates::kCycle;
+    }
   }
   void run(Duration time) {
     for (const Instant end = now_ + time; now_ < end;) {
@@ -97,6 +108,18 @@ class SearchRig {
   hal::VirtualBus& bus() { return bus_; }
   [[nodiscard]] Instant now() const { return now_; }
 
+  /// The robot of every rig.
+  static Robot robot() {
+    Robot robot;
+    robot.name = "test base";
+    for (std::size_t i = 0; i < robot.drives.size(); ++i) {
+      robot.drives[i].node_id = static_cast<std::uint8_t>(i + 1);
+      robot.drives[i].sign = i % 2 == 0 ? 1 : -1;
+      robot.drives[i].gear_ratio = 20.0;
+    }
+    return robot;
+  }
+
  private:
   double velocity(const std::array<int, kWheels>& signs) {
     double sum = 0.0;
@@ -111,16 +134,6 @@ class SearchRig {
   static planner::Planner& planner() {
     static planner::Planner planner;
     return planner;
-  }
-  static Robot robot() {
-    Robot robot;
-    robot.name = "test base";
-    for (std::size_t i = 0; i < robot.drives.size(); ++i) {
-      robot.drives[i].node_id = static_cast<std::uint8_t>(i + 1);
-      robot.drives[i].sign = i % 2 == 0 ? 1 : -1;
-      robot.drives[i].gear_ratio = 20.0;
-    }
-    return robot;
   }
   static void prepare(int generations) {
     const DrawnMap map(12, 12, 0.25);

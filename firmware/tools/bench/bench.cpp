@@ -9,12 +9,13 @@
 namespace ivo::firmware::bench {
 namespace {
 
-constexpr std::array<Bench, 5> kBenches = {{
+constexpr std::array<Bench, 6> kBenches = {{
     {"table1", "the paper's Table I: eight rows, both heuristics, beside the paper's figures", table1},
     {"speed", "400 generations of 10 ants in the paper's profile, tables apart", speed},
     {"quality", "the fast profile's expected time after 0.1, 1 and 10 s, beside the bound", quality},
     {"compare", "four other planners on the same scenes in the same time", compare},
     {"scale", "the cost of a generation from 100 nodes up, and real maps and priors", scale},
+    {"can", "the wheel bus: its cost, its load, and each of 28 faults provoked on a kernel's own bus", can},
 }};
 
 double worst_of(const std::vector<double>& values, Sense good) {
@@ -32,7 +33,7 @@ void Sheet::add(const std::string& case_name, const std::string& figure, double 
   if (target) {
     holds = target->sense == Sense::kAtMost ? value <= target->value : value >= target->value;
   }
-  records_.push_back({bench_, case_name, figure, value, unit, target, holds});
+  put({bench_, case_name, figure, value, unit, target, holds});
 }
 
 void Sheet::add_median(const std::string& case_name, const std::string& figure, std::vector<double> values,
@@ -53,7 +54,22 @@ void Sheet::add_mean(const std::string& case_name, const std::string& figure, co
 }
 
 void Sheet::skip(const std::string& case_name, const std::string& reason) {
-  records_.push_back({bench_, case_name, "skipped: " + reason, std::nullopt, "", std::nullopt, std::nullopt});
+  put({bench_, case_name, "skipped: " + reason, std::nullopt, "", std::nullopt, std::nullopt});
+}
+
+void Sheet::add_text(const std::string& case_name, const std::string& figure, const std::string& text, bool holds) {
+  put({bench_, case_name, figure, std::nullopt, "", std::nullopt, holds, text});
+}
+
+void Sheet::take(std::vector<Record> records) {
+  for (Record& record : records) {
+    records_.push_back(std::move(record));
+  }
+}
+
+void Sheet::put(Record record) {
+  record.clock = clock_;
+  records_.push_back(std::move(record));
 }
 
 }  // namespace ivo::firmware::bench

@@ -26,6 +26,8 @@ struct Record {
   std::string unit;
   std::optional<Target> target;
   std::optional<bool> holds;  ///< whether the value meets its target; none without one
+  std::string text{};         ///< a figure in words: then `value` is none, and `holds` says whether it is as expected
+  std::string clock{};        ///< what a time was taken with, where it is not processor time of one core
 };
 
 struct Options {
@@ -48,11 +50,20 @@ class Sheet {
   void add_mean(const std::string& case_name, const std::string& figure, const std::vector<double>& values,
                 const std::string& unit, std::optional<Target> target = std::nullopt);
   void skip(const std::string& case_name, const std::string& reason);
+  /// A figure in words.
+  void add_text(const std::string& case_name, const std::string& figure, const std::string& text, bool holds);
+  /// Of all records that are added from now on.
+  void clock(const std::string& name) { clock_ = name; }
+  /// Records of another run of the same bench.
+  void take(std::vector<Record> records);
 
   [[nodiscard]] const std::vector<Record>& records() const noexcept { return records_; }
 
  private:
+  void put(Record record);
+
   std::string bench_;
+  std::string clock_;
   std::vector<Record> records_;
 };
 
@@ -70,5 +81,6 @@ void speed(const Options& options, Sheet& sheet);
 void quality(const Options& options, Sheet& sheet);
 void scale(const Options& options, Sheet& sheet);
 void compare(const Options& options, Sheet& sheet);
+void can(const Options& options, Sheet& sheet);
 
 }  // namespace ivo::firmware::bench

@@ -15,9 +15,9 @@ namespace ivo::firmware::bench {
 namespace {
 
 // Between fork and exec only calls that are safe there.
-[[noreturn]] void become(const char* path, char* const* argv, int output, pid_t parent) {
+[[noreturn]] void become(const char* path, char* const* argv, int output, pid_t parent, int last_signal) {
   // A signal to this program alone, or its end by anything else, must not leave the child at work.
-  const bool tied = prctl(PR_SET_PDEATHSIG, SIGKILL) == 0 && getppid() == parent;
+  const bool tied = prctl(PR_SET_PDEATHSIG, last_signal) == 0 && getppid() == parent;
   const int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC);
   if (tied && nothing >= 0 && dup2(nothing, STDIN_FILENO) >= 0 && dup2(output, STDOUT_FILENO) >= 0) {
     (void)execv(path, argv);
@@ -47,6 +47,11 @@ Result<std::string> output_of_neighbour(const std::string& name, const std::vect
   if (error || access(path.c_str(), X_OK) != 0) {
     return Error{"no " + name + " beside this program"};
   }
+  return output_of(path, args, SIGKILL);
+}
+
+Result<std::string> output_of(const std::string& path, const std::vector<std::string>& args, int last_signal) {
+  const std::string name = std::filesystem::path(path).filename().string();
   std::vector<std::string> words = {path};
   words.insert(words.end(), args.begin(), args.end());
   std::vector<char*> argv;
@@ -63,7 +68,7 @@ Result<std::string> output_of_neighbour(const std::string& name, const std::vect
   const pid_t parent = getpid();
   const pid_t child = fork();
   if (child == 0) {
-    become(path.c_str(), argv.data(), ends[1], parent);
+    become(path.c_str(), argv.data(), ends[1], parent, last_signal);
   }
   const int fork_error = errno;
   (void)close(ends[1]);

@@ -60,16 +60,52 @@ TEST(BenchReport, WritesARecordAFigureForPrograms) {
   EXPECT_EQ(
       json_of(sheet().records()),
       "[\n"
-      R"(  {"bench":"speed","case":"M1/U","figure":"search","value":0.25,"unit":"s","target":0.25,"holds":true},)"
+      R"(  {"bench":"speed","case":"M1/U","figure":"search","value":0.25,"unit":"s","target":0.25,"holds":true,"sense":"at most"},)"
       "\n"
       R"(  {"bench":"speed","case":"M1/U","figure":"search, worst","value":0.5,"unit":"s","target":null,"holds":null},)"
       "\n"
-      R"(  {"bench":"speed","case":"M2/U","figure":"search","value":2.0,"unit":"s","target":3.0,"holds":false},)"
+      R"(  {"bench":"speed","case":"M2/U","figure":"search","value":2.0,"unit":"s","target":3.0,"holds":false,"sense":"at least"},)"
       "\n"
       R"(  {"bench":"speed","case":"M2/U","figure":"ratio","value":1234.5,"unit":"","target":null,"holds":null},)"
       "\n"
       R"(  {"bench":"speed","case":"Dubai","figure":"skipped: no --data folder","value":null,"unit":"","target":null,"holds":null})"
       "\n]\n");
+}
+
+TEST(BenchReport, ReadsBackWhatItWrote) {
+  Sheet written("can");
+  written.clock("simulated time");
+  written.add("1 silent", "detected", 12.0, "ms", Target{12.0});
+  written.add("1 silent", "moves again", 1.0, "", Target{1.0, Sense::kAtLeast});
+  written.add("1 silent", "frames", 7.0, "");
+  written.add_text("1 silent", "says", "feedback \"lost\"", false);
+  written.skip("23 killed", "elsewhere");
+  const std::string json = json_of(written.records());
+  const Result<std::vector<Record>> read = records_of(json, "x.json");
+  ASSERT_TRUE(read.ok()) << read.error().message;
+  EXPECT_EQ(json_of(read.value()), json);
+  EXPECT_EQ(table_of(read.value()), table_of(written.records()));
+}
+
+TEST(BenchReport, RefusesWhatItDidNotWrite) {
+  for (const char* text : {"", "[]", "{}", "[{\"bench\":\"can\"}]", "[7]"}) {
+    const Result<std::vector<Record>> read = records_of(text, "x.json");
+    ASSERT_FALSE(read.ok()) << text;
+    EXPECT_EQ(read.error().message.find("x.json"), 0U) << read.error().message;
+  }
+}
+
+TEST(BenchReport, SetsFiguresInWordsApartWhenTheyAreNotAsExpected) {
+  Sheet sheet("can");
+  sheet.clock("simulated time");
+  sheet.add("1 silent", "detected", 12.0, "ms");
+  sheet.add_text("1 silent", "says", "lost", true);
+  sheet.add("2 reboot", "detected", 2.0, "ms");
+  sheet.add_text("2 reboot", "says", "no fault", false);
+  EXPECT_EQ(table_of(sheet.records()),
+            "can: simulated time  detected [ms]                     says\n"
+            "1 silent                     12.00                     lost\n"
+            "2 reboot                      2.00  no fault (NOT EXPECTED)\n");
 }
 
 TEST(Benches, HaveNamesOfTheirOwn) {

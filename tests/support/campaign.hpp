@@ -1,0 +1,240 @@
+// A robot's hard life at random: drives that fail, a bus that fails, people who press buttons at the wrong time; a
+// shadow model watches every frame. The same seed gives the same life.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <random>
+#include <string>
+#include <utility>
+
+#include "drivers/drive_fault.hpp"
+#include "firmware/loop/control_loop.hpp"
+#include "tests/support/rough_bus.hpp"
+#include "tests/support/search_rig.hpp"
+#include "tests/support/shadow_model.hpp"
+
+namespace ivo::test {
+
+struct CampaignFigures {
+  std::uint64_t cycles = 0;
+  std::uint64_t frames = 0;
+  std::uint64_t certain_events = 0;
+  int lives = 0;
+  int starts = 0;  ///< times the wheels were set in motion
+  int faults = 0;
+  std::map<drivers::DriveFaultReason, int> reasons;
+  std::map<std::string, int> violations;
+};
+
+/// One life after another, until `cycles` have run.
+class Campaign {
+ public:
+  using OperatorCommand = firmware::OperatorCommand;
+  using Plant = ShadowedBus::Plant;
+
+  explicit Campaign(std::uint64_t seed, Plant plant = nullptr) : random_(seed), plant_(std::move(plant)) {}
+
+  CampaignFigures run(std::uint64_t cycles) {
+    while (figures_.cycles < cycles) {
+      Life life(*this);
+      life.live(cycles);
+    }
+    return figures_;
+  }
+
+ private:
+  class Life {
+   public:
+    explicit Life(Campaign& campaign)
+        : campaign_(campaign),
+          shadow_(SearchRig::robot()),
+          random_(campaign.random_),
+          fault_every_(100U << chance(5)),
+          consent_every_(10U << chance(4)) {
+      SearchRig::Options options{.object = std::nullopt, .generations = 1, .fault_waits = true};
+      options.between = [this](hal::CanBus& port) -> hal::CanBus& {
+        rough_.emplace(port, random_);
+        shadowed_.emplace(*rough_, shadow_);
+        shadowed_->plant = campaign_.plant_;
+        return *shadowed_;
+      };
+      rig_.emplace(options);
+    }
+
+    void live(std::uint64_t cycles) {
+      constexpr int kLongest = 5000;
+      constexpr int kLongestStuck = 1500;  // nobody has cleared it, or it is to be mended
+      for (int i = 0; i < kLongest && stuck_ < kLongestStuck && campaign_.figures_.cycles < cycles &&
+                      !rig_->loop().status().finished;
+           ++i) {
+        cycle();
+      }
+      CampaignFigures& figures = campaign_.figures_;
+      ++figures.lives;
+      figures.frames += shadow_.frames();
+      figures.certain_events += shadow_.certain_events();
+      figures.starts += shadow_.starts();
+      figures.faults += shadow_.faults();
+      for (const auto& [rule, count] : shadow_.violations()) {
+        figures.violations[rule] += count;
+      }
+    }
+
+   private:
+    unsigned chance(unsigned of) { return static_cast<unsigned>(random_() % of); }
+    Wheel any_wheel() { return static_cast<Wheel>(chance(kWheels)); }
+
+    void cycle() {
+      recover();
+      if (chance(fault_every_) == 0) {
+        go_wrong();
+      }
+      ShadowModel::Outside outside;
+      press_buttons(outside);
+      if (late_ > 0) {
+        rig_->be_late(late_);
+      }
+      outside.now = rig_->now();
+      outside.skipped = std::exchange(late_, 0);
+      outside.bus_lost = hal::lost(rough_->state());
+      outside.receive_dropped = rough_->counters().receive_dropped;
+      outside.wheels_turn = rig_->wheels_turn();
+      outside.moved_by_others = others_command_;
+      shadow_.begin(outside);
+      const firmware::LoopStatus& status = rig_->cycle(outside.skipped);
+      shadow_.end(status.mode);
+      (void)rig_->events();
+      ++campaign_.figures_.cycles;
+      if (status.mode == firmware::Mode::kFault && !faulty_) {
+        ++campaign_.figures_.reasons[status.drive_fault.reason];
+      }
+      faulty_ = status.mode == firmware::Mode::kFault;
+      const bool to_be_mended = status.drive_fault.reason == drivers::DriveFaultReason::kResetLimit;
+      stuck_ = !faulty_ ? 0 : stuck_ + (to_be_mended ? 10 : 1);
+    }
+
+    void press_buttons(ShadowModel::Outside& outside) {
+      if (chance(consent_every_) == 0) {
+        outside.consent = rig_->loop().command(OperatorCommand::kConsent);
+      }
+      if (chance(100) == 0) {
+        outside.clear = rig_->loop().command(OperatorCommand::kClearFault);
+      }
+      if (chance(20'000) == 0) {
+        rig_->loop().request_stop();
+      }
+      if (chance(50'000) == 0) {
+        (void)rig_->loop().command(OperatorCommand::kNoConsent);
+      }
+    }
+
+    // What went wrong ends after a while.
+    void recover() {
+      if (wrong_until_ && rig_->now() >= *wrong_until_) {
+        wrong_until_.reset();
+        others_command_ = false;
+        rough_->roughness = {};
+        rig_->bus().set_state(0, hal::BusState::kActive);
+        for (int i = 0; i < kWheels; ++i) {
+          drivers::SimScript& script = rig_->drives().drive(static_cast<Wheel>(i)).script();
+          script.silent_from = drivers::SimScript::kNever;
+          script.feedback_lost_from = drivers::SimScript::kNever;
+          script.heartbeat_lost_from = drivers::SimScript::kNever;
+        }
+      }
+    }
+
+    void go_wrong() {
+      wrong_until_ = rig_->now() + std::chrono::milliseconds(2 << chance(10));
+      drivers::SimDrive& drive = rig_->drives().drive(any_wheel());
+      const unsigned which = chance(18);
+      switch (which) {
+        case 0:
+          drive.script().silent_from = rig_->now();
+          break;
+        case 1:
+          drive.script().feedback_lost_from = rig_->now();
+          break;
+        case 2:
+          drive.script().heartbeat_lost_from = rig_->now();
+          break;
+        case 3:
+          drive.script().reboot_at = rig_->now();
+          break;
+        case 4:
+          drive.script().fault_at = rig_->now();
+          break;
+        case 5:
+          late_ = static_cast<int>(1 + chance(12));
+          break;
+        case 6:
+          late_ = static_cast<int>(20 + chance(200));
+          break;
+        case 7:
+          rough_->roughness.lost = 1 + chance(300);
+          break;
+        case 8:
+          rough_->roughness.doubled = 1 + chance(300);
+          break;
+        case 9:
+          rough_->roughness.garbled = 1 + chance(100);
+          break;
+        case 10:
+          rough_->roughness.takes = chance(10);
+          break;
+        case 11:
+          rig_->bus().set_state(0, static_cast<hal::BusState>(1 + chance(6)));
+          break;
+        case 12:
+          flood();
+          break;
+        default:
+          inject(which);
+          break;
+      }
+    }
+
+    void flood() {
+      const hal::CanFrame frame{.id = static_cast<std::uint16_t>(0x081 + chance(4)), .size = 8, .data = {}};
+      for (unsigned i = chance(1200); i > 0; --i) {
+        (void)rig_->bus().port(2).send({&frame, 1}, rig_->now());
+      }
+    }
+
+    void inject(unsigned which) {
+      hal::CanFrame frame{.id = static_cast<std::uint16_t>(random_() % 0x800),
+                          .size = static_cast<std::uint8_t>(chance(9)),
+                          .data = {}};
+      if (which % 2 == 0) {  // on the drives' and the master's own ids
+        constexpr std::array<int, 8> kFunctions = {0x000, 0x080, 0x180, 0x200, 0x580, 0x600, 0x700, 0x77F - 4};
+        frame.id = static_cast<std::uint16_t>(kFunctions[chance(8)] + static_cast<int>(chance(5)));
+      }
+      for (std::uint8_t& byte : frame.data) {
+        byte = static_cast<std::uint8_t>(chance(2) == 0 ? 0U : chance(256));
+      }
+      others_command_ = true;
+      (void)rig_->bus().port(2).send({&frame, 1}, rig_->now());
+    }
+
+    Campaign& campaign_;
+    ShadowModel shadow_;
+    std::mt19937_64& random_;
+    unsigned fault_every_;
+    unsigned consent_every_;
+    std::optional<RoughBus> rough_;
+    std::optional<ShadowedBus> shadowed_;
+    std::optional<SearchRig> rig_;
+    std::optional<Instant> wrong_until_;
+    bool others_command_ = false;
+    bool faulty_ = false;
+    int stuck_ = 0;  // cycles in one fault
+    int late_ = 0;
+  };
+
+  std::mt19937_64 random_;
+  Plant plant_;
+  CampaignFigures figures_;
+};
+
+}  // namespace ivo::test
