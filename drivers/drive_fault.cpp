@@ -2,8 +2,8 @@
 
 namespace ivo::drivers {
 
-bool needs_start_up(DriveFaultReason reason) noexcept {
-  switch (reason) {
+bool needs_start_up(const DriveFault& fault) noexcept {
+  switch (fault.reason) {
     case DriveFaultReason::kSdoAborted:
     case DriveFaultReason::kSdoTimedOut:
     case DriveFaultReason::kNoAnswer:
@@ -22,8 +22,9 @@ bool needs_start_up(DriveFaultReason reason) noexcept {
     case DriveFaultReason::kForeignMaster:
     case DriveFaultReason::kCycleLate:
       return true;
-    case DriveFaultReason::kNone:
     case DriveFaultReason::kEmergency:
+      return (fault.code & 0xFF00) == 0x8100;  // of communication (CiA 301, table 26): it may have left Operational
+    case DriveFaultReason::kNone:
     case DriveFaultReason::kDriveInFault:
     case DriveFaultReason::kLeftOperationEnabled:
     case DriveFaultReason::kUnaskedState:

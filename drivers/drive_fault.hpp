@@ -55,7 +55,7 @@ struct DriveFault {
   std::uint32_t code = 0;
 };
 
-/// True when only a new start-up of the drives can clear `reason`: what the drive was told may be forgotten.
-[[nodiscard]] bool needs_start_up(DriveFaultReason reason) noexcept;
+/// True when only a new start-up of the drives can clear `fault`: what the drive was told may be forgotten.
+[[nodiscard]] bool needs_start_up(const DriveFault& fault) noexcept;
 
 }  // namespace ivo::drivers

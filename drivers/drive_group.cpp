@@ -66,7 +66,7 @@ void DriveGroup::write(Instant now, bool enable, const WheelTargets& targets) no
     }
   }
   follow(now, enable);
-  if (state_ == GroupState::kFault && synchronous_ && needs_start_up(feedback_.fault.reason) && last_word_.due(now)) {
+  if (state_ == GroupState::kFault && synchronous_ && needs_start_up(feedback_.fault) && last_word_.due(now)) {
     for (const WheelDrive& drive : drives_) {
       if (!drive.answers(now)) {
         add(nmt_frame({NmtCommand::kEnterPreOperational, drive.node_id()}));
@@ -90,14 +90,14 @@ void DriveGroup::write(Instant now, bool enable, const WheelTargets& targets) no
     const CommandFrames command = command_frames(layout_, channels, commands, controlwords_.due(commands, now));
     std::for_each(command.begin(), command.end(), add);
   }
-  if (unsent_writes_ == 0 && heartbeat_.due(now)) {
+  if (unsent_writes_ == 0 && std::ranges::all_of(drives_, &WheelDrive::stopped) && heartbeat_.due(now)) {
     add(heartbeat_frame(master_node_id_, NmtState::kOperational));
   }
   send(frames.span(), now);
 }
 
 void DriveGroup::send(std::span<const hal::CanFrame> frames, Instant now) noexcept {
-  const bool whole = frames.empty() || bus_.send(frames, now) == frames.size();
+  const bool whole = bus_.send(frames, now) == frames.size();
   if (whole) {
     unsent_writes_ = 0;
     return;

@@ -59,7 +59,7 @@ struct GroupFeedback {
 /// too, which makes it stop by 6007h.
 class DriveGroup {
  public:
-  /// `bus` outlives this. Silent until open(), save for the heartbeat that write() sends.
+  /// `bus` outlives this. Silent until open().
   DriveGroup(hal::CanBus& bus, const Robot& robot) noexcept;
 
   /// Begins start-up of all four at once. From kBooting it goes to kReady, or to kFault with the step that failed.
@@ -72,7 +72,9 @@ class DriveGroup {
   [[nodiscard]] const GroupFeedback& feedback() const noexcept { return feedback_; }
   /// Sends at most kFramesPerWrite frames in one CanBus::send: start-up, SYNC, the commands (pdo_layout.hpp), which the
   /// drives act on at the next SYNC, and last our heartbeat: a bus that does not take all takes no heartbeat, nor is
-  /// one sent in the write after, so drives that we do not reach stop by themselves. Without `enable` no frame goes out
+  /// one sent in the write after, so drives that we do not reach stop by themselves. Nor is there any before each drive
+  /// has confirmed, since open(), that its voltage is off: one that turned for a dead master, or missed its NMT reset,
+  /// must not be kept going by ours. Without `enable` no frame goes out
   /// that could move a wheel: moving wheels get a quick stop, so a gentle stop is ramped down by the targets first;
   /// wheels at rest get shutdown.
   void write(Instant now, bool enable, const WheelTargets& targets) noexcept;

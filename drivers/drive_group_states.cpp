@@ -182,9 +182,9 @@ void DriveGroup::update_fault(Instant now) noexcept {
     return;
   }
   const bool anew = std::any_of(drives_.begin(), drives_.end(), [](const WheelDrive& drive) {
-    return drive.phase() != WheelDrive::Phase::kOperational || needs_start_up(drive.fault().reason);
+    return !drive.operational() || needs_start_up(drive.fault());
   });
-  if (anew || needs_start_up(feedback_.fault.reason)) {
+  if (anew || needs_start_up(feedback_.fault)) {
     open(now);
     return;
   }

@@ -58,7 +58,9 @@ class DriveStartup {
 
   [[nodiscard]] Phase phase() const noexcept { return phase_; }
   [[nodiscard]] const DriveFault& fault() const noexcept { return fault_; }
-  /// Voltage off was written and confirmed since open, or start-up failed and no more can be said to the drive.
+  /// Voltage off was written and confirmed since open.
+  [[nodiscard]] bool stopped() const noexcept { return stopped_; }
+  /// The same, or start-up failed and no more can be said to the drive.
   [[nodiscard]] bool stopped_or_failed() const noexcept { return stopped_ || phase_ == Phase::kFailed; }
   /// True while exactly one answer of the node is on its way.
   [[nodiscard]] bool awaiting_answer() const noexcept;

@@ -36,6 +36,7 @@ void WheelDrive::open() noexcept {
   heard_ = {};
   status_ = {};
   fresh_ = false;
+  left_operational_ = false;
   sync_.reset();
   last_feedback_.reset();
   fault_ = {};
@@ -116,7 +117,9 @@ void WheelDrive::update(Instant now) noexcept {
 void WheelDrive::watch(Instant now) noexcept {
   if (heard_.heartbeat.has_value()) {
     heartbeat_.heard(now);
+    left_operational_ = *heard_.heartbeat != NmtState::kOperational;
   }
+  left_operational_ = left_operational_ || heard_.boot_up;
   if (heard_.boot_up) {
     latch(DriveFaultReason::kRebooted, 0);
   } else if (heard_.emergency.has_value()) {

@@ -60,6 +60,11 @@ class WheelDrive {
   [[nodiscard]] bool answers(Instant now) const noexcept {
     return last_feedback_.has_value() && now - *last_feedback_ <= rates::kFeedbackTimeout;
   }
+  /// Started up, and neither booted nor left Operational since, as far as heard.
+  [[nodiscard]] bool operational() const noexcept {
+    return startup_.phase() == Phase::kOperational && !left_operational_;
+  }
+  [[nodiscard]] bool stopped() const noexcept { return startup_.stopped(); }
   [[nodiscard]] bool stopped_or_failed() const noexcept { return startup_.stopped_or_failed(); }
   /// The TPDO1 of the last SYNC is in.
   [[nodiscard]] bool fresh() const noexcept { return fresh_; }
@@ -95,6 +100,7 @@ class WheelDrive {
   Heard heard_;
   DriveStatus status_;
   bool fresh_ = false;
+  bool left_operational_ = false;
   std::optional<Instant> sync_;           // the last one
   std::optional<Instant> last_feedback_;  // or the first SYNC
   DriveFault fault_;

@@ -58,9 +58,9 @@ void ControlLoop::cycle(Instant now, std::int64_t skipped) noexcept {
   now_ = now;
   take_commands();
   drain_bus();
+  look_at_ourselves(skipped);
   look_at_stop_inputs();
   look_at_drives();
-  look_at_ourselves(skipped);
   look_for_object();
   decide_mode();
   write(pass_gate(clamp(choose_velocity())));
@@ -118,6 +118,7 @@ void ControlLoop::look_at_drives() noexcept {
   if (const auto fault = monitor_.update({told_, wheels_.angle_rad, enabled}, now_)) {
     fail(*fault);
   }
+  record_fault();
 }
 
 // Pressed in motion it is a fault. Before, it only keeps the robot from getting ready, as a drive without power does.
@@ -138,6 +139,9 @@ void ControlLoop::look_at_ourselves(std::int64_t skipped) noexcept {
   if (skipped >= rates::kLatestPeriods && permissions(mode_).may_move) {
     fail({.reason = drivers::DriveFaultReason::kCycleLate, .code = static_cast<std::uint32_t>(skipped)});
   }
+}
+
+void ControlLoop::record_fault() noexcept {
   const drivers::DriveFault& fault = wheels_.fault;
   if (wheels_.state == drivers::GroupState::kFault && fault.reason != fault_recorded_) {
     record(EventKind::kDriveFault, static_cast<std::uint8_t>(fault.wheel), static_cast<std::int32_t>(fault.reason));

@@ -81,6 +81,7 @@ class ControlLoop {
   void publish() noexcept;
 
   void begin_search() noexcept;
+  void record_fault() noexcept;
   void fail(const drivers::DriveFault& fault) noexcept;
   void enter(Mode mode) noexcept;
   void record(EventKind kind, std::uint8_t agent = 0, std::int32_t code = 0, Point place = {}) noexcept;

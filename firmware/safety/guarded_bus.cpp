@@ -23,10 +23,8 @@ std::size_t GuardedBus::send(std::span<const hal::CanFrame> frames, Instant now)
     }
     begin = i + 1;
   }
-  if (begin < frames.size()) {
-    taken += inner_.send(frames.subspan(begin), now);
-  }
-  return taken;
+  // Also with nothing left to send: what waits in the inner bus leaves with a later call of it.
+  return taken + inner_.send(frames.subspan(begin), now);
 }
 
 std::uint64_t GuardedBus::refused(FrameRefusal reason) const noexcept {

@@ -12,6 +12,7 @@
 #include "config/rates.hpp"
 #include "drivers/sim/sim_drives.hpp"
 #include "firmware/loop/control_loop.hpp"
+#include "hal/api/digital_io.hpp"
 #include "hal/sim/virtual_bus.hpp"
 #include "tests/support/drawn_map.hpp"
 
@@ -26,6 +27,8 @@ class SearchRig {
     bool fault_waits = false;
     /// What the loop is given in the place of its port of the bus; none: the port itself.
     std::function<hal::CanBus&(hal::CanBus&)> between{};
+    /// With them the robot has an emergency stop (input 0) and a bumper (input 1).
+    hal::DigitalInputs* inputs = nullptr;
   };
 
   explicit SearchRig(const Options& options)
@@ -35,6 +38,10 @@ class SearchRig {
     (void)setup.searchers.push_back({.kind = AgentKind::kRobot, .start = {1.5, 1.5}, .speed_mps = 0.5});
     (void)setup.searchers.push_back({.kind = AgentKind::kPerson, .start = {10.5, 1.5}, .speed_mps = 0.5});
     setup.fault_waits = options.fault_waits;
+    if (options.inputs != nullptr) {
+      setup.robot.inputs = {.chip = "gpiochip0", .emergency_stop = InputLine{}, .bumpers = {InputLine{}}};
+      setup.inputs = options.inputs;
+    }
     if (options.object) {
       setup.object = firmware::SearchObject(*options.object, FindRule::kSight);
     }

@@ -78,19 +78,5 @@ TEST(DriveGroupBus, MovesAgainAfterANewStartUpWhenTheQueueIsFree) {
   EXPECT_TRUE(rig.run_until(GroupState::kEnabled));
 }
 
-TEST(DriveGroupBus, ALostHeartbeatBeforeStartUpIsNotTheLast) {
-  hal::VirtualBus bus;
-  NarrowBus narrow(bus.port(0));
-  DriveGroup group(narrow, test_robot());
-  narrow.room = 0;
-  for (int n = 0; n < 100; ++n) {
-    group.update(Instant(n * rates::kCycle));
-    group.write(Instant(n * rates::kCycle), false, {});
-    narrow.room = 1000;
-  }
-  std::array<hal::ReceivedFrame, 8> frames;
-  EXPECT_GE(bus.port(1).receive(frames, Instant{}), 3U);
-}
-
 }  // namespace
 }  // namespace ivo::drivers

@@ -171,6 +171,31 @@ TEST_F(DriveGroupWatch, ADriveThatMissesSyncIsToldToLeaveOperational) {
   EXPECT_TRUE(all_at_rest(rig_));
 }
 
+TEST(DriveGroup, ADriveThatTurnsForADeadMasterIsNotKeptGoingByOurHeartbeat) {
+  Rig rig;
+  ASSERT_TRUE(rig.drive_at(5.0));
+  DriveGroup successor(rig.bus.port(4), rig.robot);
+  successor.open(rig.clock.now());
+  rig.bus.lose(0x000, 100);  // nobody hears the new master's NMT reset
+  for (int i = 0; i < 100; ++i) {
+    successor.update(rig.clock.now());
+    successor.write(rig.clock.now(), false, {});
+    rig.clock.sleep_until(rig.clock.now() + rates::kCycle);
+    rig.drives.update(rig.clock.now());
+  }
+  EXPECT_FALSE(any_enabled(rig));
+}
+
+TEST_F(DriveGroupWatch, DrivesThatMissedOurHeartbeatAreStartedUpAnew) {
+  for (int i = 0; i < 100; ++i) {  // we hang for 200 ms
+    rig_.clock.sleep_until(rig_.clock.now() + rates::kCycle);
+    rig_.drives.update(rig_.clock.now());
+  }
+  rig_.run(seconds(1));
+  ASSERT_EQ(rig_.feedback.state, GroupState::kFault);
+  recover();
+}
+
 TEST_F(DriveGroupWatch, FaultsThatComeBackEndTheResets) {
   const auto trip = [&] {
     rig_.group.fail({.reason = DriveFaultReason::kWheelSlip, .code = 80}, rig_.clock.now());

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "drivers/drive_fault_text.hpp"
+#include "hal/sim/digital_inputs.hpp"
 #include "tests/support/search_rig.hpp"
 
 namespace ivo::firmware {
@@ -300,6 +302,74 @@ TEST_F(ClearingAFault, ASearchThatSomebodyElseEndedMeanwhileIsOver) {
   ASSERT_EQ(rig.loop().status().finder, 1);
   rig.loop().command(OperatorCommand::kClearFault);
   EXPECT_TRUE(rig.run_until(Mode::kDone, 20s));
+}
+
+class StopInputsOfTheLoop : public testing::Test {
+ protected:
+  hal::SimDigitalInputs inputs_;
+  SearchRig rig_{{.object = {}, .fault_waits = true, .inputs = &inputs_}};
+};
+
+TEST_F(StopInputsOfTheLoop, AnEmergencyStopInMotionStopsAllFourInTheSameCycle) {
+  ASSERT_TRUE(rig_.start_search());
+  rig_.run(4s);
+  ASSERT_TRUE(rig_.wheels_turn());
+  inputs_.press(0);
+  EXPECT_EQ(rig_.cycle().mode, Mode::kFault);
+  EXPECT_EQ(drivers::describe(rig_.loop().status().drive_fault), "emergency stop pressed");
+  rig_.run(500ms);
+  EXPECT_FALSE(rig_.wheels_turn());
+  rig_.loop().command(OperatorCommand::kClearFault);
+  rig_.run(5s);
+  EXPECT_EQ(rig_.loop().status().mode, Mode::kFault) << "it is still pressed";
+  inputs_.release(0);
+  rig_.run(5s);
+  EXPECT_EQ(rig_.loop().status().mode, Mode::kFault) << "released is not cleared";
+  rig_.loop().command(OperatorCommand::kClearFault);
+  ASSERT_TRUE(rig_.run_until(Mode::kAwaitingConsent, 5s));
+  rig_.loop().command(OperatorCommand::kConsent);
+  ASSERT_TRUE(rig_.run_until(Mode::kSearching, 1s));
+}
+
+TEST_F(StopInputsOfTheLoop, ATapOfABumperIsEnough) {
+  ASSERT_TRUE(rig_.start_search());
+  rig_.run(4s);
+  inputs_.tap(1);
+  EXPECT_EQ(rig_.cycle().mode, Mode::kFault);
+  EXPECT_EQ(drivers::describe(rig_.loop().status().drive_fault), "bumper 1 touched");
+}
+
+TEST_F(StopInputsOfTheLoop, InputsThatNobodyReadsAnyMoreStopTheRobot) {
+  ASSERT_TRUE(rig_.start_search());
+  rig_.run(4s);
+  inputs_.fall_silent(rig_.now());
+  EXPECT_TRUE(rig_.run_until(Mode::kFault, rates::kInputsAge + 4ms));
+}
+
+TEST_F(StopInputsOfTheLoop, PressedAtTheStartItOnlyKeepsTheRobotFromGettingReady) {
+  inputs_.press(0);
+  EXPECT_FALSE(rig_.run_until(Mode::kAwaitingConsent, 20s));
+  EXPECT_EQ(rig_.loop().status().mode, Mode::kStarting);
+  inputs_.release(0);
+  ASSERT_TRUE(rig_.run_until(Mode::kAwaitingConsent, 1s));
+  inputs_.press(0);
+  rig_.cycle();
+  rig_.loop().command(OperatorCommand::kConsent);
+  rig_.run(1s);
+  EXPECT_EQ(rig_.loop().status().mode, Mode::kStarting);
+}
+
+TEST(ControlLoop, AnEncoderThatStaysStopsTheRobotAndIsNamed) {
+  SearchRig rig({});
+  ASSERT_TRUE(rig.start_search());
+  rig.run(4s);
+  (void)rig.drives()
+      .drive(Wheel::kRearLeft)
+      .script()
+      .events.push_back({.at = rig.now(), .fault = drivers::SimFault::kEncoderStuck, .on = true});
+  ASSERT_TRUE(rig.run_until(Mode::kFault, 500ms));
+  EXPECT_EQ(drivers::describe(rig.loop().status().drive_fault),
+            "drive 3 (rear left): told to turn, but its position stays: encoder, coupling or a blocked wheel");
 }
 
 TEST(ControlLoop, AVeryLateCycleStopsTheRobotAndAFewLostPeriodsDoNot) {
