@@ -223,6 +223,8 @@ int command_line(int argc, const char* const* argv) {
       ->check(not_empty);
   run_command->add_option("--clock", clock, "real, or sync: time moves when the drives have answered (with --can)")
       ->check(CLI::IsMember({"real", "sync"}));
+  run_command->add_option("--script", run_options.script, "What simulated drives do wrong and when, as of ivo-drives")
+      ->check(not_empty);
   run_command->add_option("--record", run_options.record, "File for every frame sent or received, as candump -L")
       ->check(not_empty);
 

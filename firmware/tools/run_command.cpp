@@ -27,6 +27,8 @@ namespace {
 
 constexpr int kObserveEveryMs = 50;
 constexpr int kObserveEveryCycles = 25;
+constexpr Duration kClearingTakes =
+    std::chrono::seconds(10);  // a quick stop's time and a start-up's; then we ask again
 
 std::atomic<ControlLoop*> running_loop{nullptr};
 static_assert(std::atomic<ControlLoop*>::is_always_lock_free, "a signal handler reads it");
@@ -263,7 +265,8 @@ class Run {
 
   /// True when it waited for an answer.
   bool seek_clearing(const LoopStatus& status) {
-    if (!ConsentQuestion::possible() || status.finished) {
+    const bool being_cleared = clear_asked_at_ && status.at - *clear_asked_at_ < kClearingTakes;
+    if (!ConsentQuestion::possible() || status.finished || being_cleared) {
       return false;
     }
     if (!clear_question_.asked()) {
@@ -274,6 +277,7 @@ class Run {
     const Answer answer = clear_question_.poll(kObserveEveryMs);
     if (answer == Answer::kYes) {
       (void)loop_.command(OperatorCommand::kClearFault);
+      clear_asked_at_ = status.at;
       clear_question_ = {};
       question_ = {};
       answered_ = false;
@@ -304,6 +308,7 @@ class Run {
   RunTerminal terminal_;
   ConsentQuestion question_;
   ConsentQuestion clear_question_;
+  std::optional<Instant> clear_asked_at_;
   bool consented_before_ = false;  // and a fault has ended that: --yes was for the first time
   Scheduler scheduler_{Instant{}, rates::kCycle};
   std::int64_t skipped_ = 0;
@@ -352,7 +357,9 @@ int run(const RunOptions& given) {
 
   const SearchObject object = object_of(inputs.file.mission, planner);
   hal::CanBus& bus = record.value() ? record.value()->bus() : world.value()->bus();
-  const auto loop = std::make_unique<ControlLoop>(setup_of(inputs, object), planner, bus);
+  LoopSetup setup = setup_of(inputs, object);
+  setup.inputs = world.value()->inputs();
+  const auto loop = std::make_unique<ControlLoop>(setup, planner, bus);
   stop_on_signals(*loop);
   const RunView view{{inputs, planner}, object};
   Run the_run(options, view, *loop, *world.value(), std::move(log).value(), record.value().get());

@@ -13,6 +13,7 @@ struct RunOptions {
   double speed = 1.0;      ///< times real time
   std::string can;         ///< interface; empty: drives simulated in this process
   bool lock_step = false;  ///< time moves when the drives have answered
+  std::string script;      ///< what the simulated drives are to do wrong, of the virtual bus; empty: nothing
   std::string record;      ///< file for every frame sent or received; empty: none
 };
 

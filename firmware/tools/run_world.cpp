@@ -7,6 +7,8 @@
 #include "drivers/canopen/cob_id.hpp"
 #include "drivers/sim/sim_drives.hpp"
 #include "firmware/files/number_text.hpp"
+#include "firmware/files/sim_script_file.hpp"
+#include "hal/linux/gpio_inputs.hpp"
 #include "hal/linux/interface_watch.hpp"
 #include "hal/linux/lock_step.hpp"
 #include "hal/linux/monotonic_clock.hpp"
@@ -20,11 +22,11 @@ namespace {
 
 class VirtualWorld final : public RunWorld {
  public:
-  VirtualWorld(const RunOptions& options, const Robot& robot)
+  VirtualWorld(const RunOptions& options, const Robot& robot, const drivers::SimDrives::Scripts& scripts)
       : paced_(options.speed, from_seconds(seconds(robot.cycle) * options.speed)),
         max_speed_(options.max_speed),
         speed_(options.speed),
-        drives_(bus_.port(1), robot, drivers::SimDrives::TimeFrom::kClock) {
+        drives_(bus_.port(1), robot, drivers::SimDrives::TimeFrom::kClock, scripts) {
     drives_.open();
   }
 
@@ -52,8 +54,21 @@ class SocketWorld final : public RunWorld {
   SocketWorld(const RunOptions& options, hal::SocketCanBus bus)
       : interface_(options.can), bus_(std::move(bus)), watch_(bus_) {}
 
+  Result<void> open_inputs(const InputParameters& parameters) {
+    if (parameters.chip.empty()) {
+      return {};
+    }
+    Result<std::unique_ptr<hal::GpioInputs>> inputs = hal::GpioInputs::open(parameters, clock_);
+    if (!inputs) {
+      return inputs.error();
+    }
+    inputs_ = std::move(inputs).value();
+    return {};
+  }
+
   hal::CanBus& bus() noexcept override { return bus_; }
   hal::Clock& clock() noexcept override { return clock_; }
+  [[nodiscard]] hal::DigitalInputs* inputs() noexcept override { return inputs_.get(); }
   void after_cycle(const ControlLoop& /*loop*/) noexcept override {}
   [[nodiscard]] bool own_time() const noexcept override { return false; }
   [[nodiscard]] std::string description() const override {
@@ -66,6 +81,7 @@ class SocketWorld final : public RunWorld {
   hal::SocketCanBus bus_;
   hal::InterfaceWatch watch_;
   hal::MonotonicClock clock_;
+  std::unique_ptr<hal::GpioInputs> inputs_;  // after the clock that it reads
 };
 
 class LockStepWorld final : public RunWorld {
@@ -103,7 +119,17 @@ Result<std::unique_ptr<RunWorld>> RunWorld::open(const RunOptions& options, cons
           "--clock sync: there is nobody to keep step with on the virtual bus; expected it together with --can "
           "INTERFACE"};
     }
-    return std::unique_ptr<RunWorld>(std::make_unique<VirtualWorld>(options, robot));
+    const Result<drivers::SimDrives::Scripts> scripts =
+        options.script.empty() ? Result<drivers::SimDrives::Scripts>(drivers::SimDrives::Scripts())
+                               : read_sim_script(options.script);
+    if (!scripts) {
+      return scripts.error();
+    }
+    return std::unique_ptr<RunWorld>(std::make_unique<VirtualWorld>(options, robot, scripts.value()));
+  }
+  if (!options.script.empty()) {
+    return Error{"--script: the drives on " + options.can +
+                 " are not ours; expected it without --can, or of ivo-drives"};
   }
   if (options.max_speed || options.speed != 1.0) {
     return Error{"--speed: drives on " + options.can + " have their own time; expected no --speed together with --can"};
@@ -121,7 +147,11 @@ Result<std::unique_ptr<RunWorld>> RunWorld::open(const RunOptions& options, cons
   if (options.lock_step) {
     return std::unique_ptr<RunWorld>(std::make_unique<LockStepWorld>(options, std::move(bus).value(), robot));
   }
-  return std::unique_ptr<RunWorld>(std::make_unique<SocketWorld>(options, std::move(bus).value()));
+  auto world = std::make_unique<SocketWorld>(options, std::move(bus).value());
+  if (const Result<void> opened = world->open_inputs(robot.inputs); !opened) {
+    return opened.error();
+  }
+  return std::unique_ptr<RunWorld>(std::move(world));
 }
 
 }  // namespace ivo::firmware

@@ -11,6 +11,7 @@
 #include "firmware/tools/run_options.hpp"
 #include "hal/api/can_bus.hpp"
 #include "hal/api/clock.hpp"
+#include "hal/sim/digital_inputs.hpp"
 
 namespace ivo::firmware {
 
@@ -23,6 +24,8 @@ class RunWorld {
 
   [[nodiscard]] virtual hal::CanBus& bus() noexcept = 0;
   [[nodiscard]] virtual hal::Clock& clock() noexcept = 0;
+  /// Emergency stop and bumpers. Those of simulated worlds are never pressed.
+  [[nodiscard]] virtual hal::DigitalInputs* inputs() noexcept { return &released_; }
   /// After each cycle, before the sleep.
   virtual void after_cycle(const ControlLoop& loop) noexcept = 0;
   /// Time stands still because the drives no longer answer.
@@ -33,6 +36,9 @@ class RunWorld {
   [[nodiscard]] virtual bool own_time() const noexcept = 0;
   /// For a person: "virtual bus, four simulated drives in this process".
   [[nodiscard]] virtual std::string description() const = 0;
+
+ private:
+  hal::SimDigitalInputs released_;
 };
 
 }  // namespace ivo::firmware

@@ -93,6 +93,65 @@ class Run(unittest.TestCase):
         self.assertIn(b"Start the search?", output)
         return process.wait()
 
+    def converse(self, arguments, answers):
+        """Runs ivo on a terminal; each question, in order, is answered when it is there. (exit status, output)"""
+        terminal, far_end = open_terminal()
+        process = subprocess.Popen([IVO, "run", *arguments, "--out", self.out],
+                                   stdin=far_end, stdout=far_end, stderr=far_end, start_new_session=True)
+        os.close(far_end)
+        output, asked_from = b"", 0
+        pending = list(answers)
+        while True:
+            try:
+                output += os.read(terminal, 4096)
+            except OSError:  # the program has ended
+                break
+            if pending and pending[0][0] in output[asked_from:]:
+                asked_from = len(output)
+                os.write(terminal, pending.pop(0)[1])
+        os.close(terminal)
+        self.assertEqual(pending, [], output.decode())
+        return process.wait(), output.decode()
+
+    def script(self, text):
+        path = os.path.join(self.folder, "script.toml")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+        return path
+
+    REBOOT = '[[at]]\nt_s = 8.0\ndrive = "rear_left"\nfault = "reboot"\n'
+
+    def test_a_fault_can_be_cleared_at_the_terminal_and_the_search_goes_on_after_consent(self):
+        status, said = self.converse(
+            [write_mission(self.folder), "--speed", "max", "--script", self.script(self.REBOOT)],
+            [(b"Start the search?", b"y\n"), (b"Start the drives up again?", b"y\n"), (b"Go on with the search?", b"y\n")],
+        )
+        self.assertEqual(status, 0, said)
+        self.assertIn("drive 3 (rear left): rebooted", said)
+        modes = self.modes()
+        self.assertEqual(modes.count("searching"), 2, modes)
+        self.assertLess(modes.index("fault"), len(modes) - modes[::-1].index("searching"))
+        self.assertIn("fault cleared", [event["event"] for event in events(self.out)])
+
+    def test_a_fault_that_nobody_clears_ends_the_run(self):
+        status, said = self.converse(
+            [write_mission(self.folder), "--speed", "max", "--script", self.script(self.REBOOT)],
+            [(b"Start the search?", b"y\n"), (b"Start the drives up again?", b"n\n")],
+        )
+        self.assertEqual(status, 1, said)
+        self.assertEqual(read_json(self.out, "report.json")["reason"], "drive 3 (rear left): rebooted")
+
+    def test_without_a_terminal_a_fault_ends_the_run(self):
+        done = ivo("run", write_mission(self.folder), "--yes", "--speed", "max", "--out", self.out,
+                   "--script", self.script(self.REBOOT))
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("rebooted", done.stdout)
+
+    def test_a_script_is_for_simulated_drives_of_this_process(self):
+        done = ivo("run", write_mission(self.folder), "--can", "vcan7", "--out", self.out, "--script", self.script(""))
+        self.assertEqual((done.returncode, done.stderr),
+                         (2, "ivo: --script: the drives on vcan7 are not ours; expected it without --can, or of ivo-drives\n"))
+
     def test_yes_at_the_terminal_starts_the_search(self):
         self.assertEqual(self.ask_at_a_terminal(b"y\n"), 0)
         self.assertIn("searching", self.modes())
