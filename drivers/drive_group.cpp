@@ -42,6 +42,7 @@ void DriveGroup::open(Instant now) noexcept {
   told_off_ = false;
   syncs_since_off_ = 0;
   unsent_writes_ = 0;
+  disobeyed_ = false;
   reset_asked_ = false;
   resetting_ = false;
   feedback_.fault = {};
@@ -66,9 +67,9 @@ void DriveGroup::write(Instant now, bool enable, const WheelTargets& targets) no
     }
   }
   follow(now, enable);
-  if (state_ == GroupState::kFault && synchronous_ && needs_start_up(feedback_.fault) && last_word_.due(now)) {
+  if (state_ == GroupState::kFault && synchronous_ && last_word_.due(now)) {
     for (const WheelDrive& drive : drives_) {
-      if (!drive.answers(now)) {
+      if (!drive.answers(now) || disobeys(drive, now)) {
         add(nmt_frame({NmtCommand::kEnterPreOperational, drive.node_id()}));
       }
     }
@@ -90,7 +91,7 @@ void DriveGroup::write(Instant now, bool enable, const WheelTargets& targets) no
     const CommandFrames command = command_frames(layout_, channels, commands, controlwords_.due(commands, now));
     std::for_each(command.begin(), command.end(), add);
   }
-  if (unsent_writes_ == 0 && std::ranges::all_of(drives_, &WheelDrive::stopped) && heartbeat_.due(now)) {
+  if (may_say_alive(now) && heartbeat_.due(now)) {
     add(heartbeat_frame(master_node_id_, NmtState::kOperational));
   }
   send(frames.span(), now);
@@ -98,6 +99,11 @@ void DriveGroup::write(Instant now, bool enable, const WheelTargets& targets) no
 
 void DriveGroup::send(std::span<const hal::CanFrame> frames, Instant now) noexcept {
   const bool whole = bus_.send(frames, now) == frames.size();
+  // What only waits leaves with the next call; what was dropped has to be said again.
+  if (const std::uint64_t dropped = bus_.counters().send_dropped; dropped != dropped_before_) {
+    dropped_before_ = dropped;
+    controlwords_.forget();
+  }
   if (whole) {
     unsent_writes_ = 0;
     return;
@@ -105,7 +111,17 @@ void DriveGroup::send(std::span<const hal::CanFrame> frames, Instant now) noexce
   unsent_writes_ = std::min(unsent_writes_ + 1, kUnsentWrites);
   told_off_ = false;
   syncs_since_off_ = 0;
-  controlwords_.forget();
+}
+
+bool DriveGroup::may_say_alive(Instant now) noexcept {
+  disobeyed_ = disobeyed_ || std::ranges::any_of(drives_, [&](const WheelDrive& d) { return disobeys(d, now); });
+  return unsent_writes_ == 0 && !disobeyed_ && std::ranges::all_of(drives_, &WheelDrive::stopped);
+}
+
+bool DriveGroup::disobeys(const WheelDrive& drive, Instant now) const noexcept {
+  const bool in_time = now - since_ <= rates::kStandstillTimeout + rates::kStateChangeTimeout;
+  return state_ == GroupState::kFault && !resetting_ && synchronous_ && !in_time && drive.answers(now) &&
+         drive.powered();
 }
 
 void DriveGroup::stop(Instant now) noexcept {
@@ -178,13 +194,13 @@ std::uint16_t DriveGroup::controlword_for(const WheelDrive& drive, Instant now) 
     case GroupState::kBooting:
       break;
     case GroupState::kReady:
-      return off_word();
+      return off_word(drive);
     case GroupState::kEnabling:
       return cia402::toward(drive.power_state(), step_);
     case GroupState::kEnabled:
       return controlword::kEnableOperation;
     case GroupState::kStopping:
-      return quick_stop_over(now) ? off_word() : controlword::kQuickStop;
+      return quick_stop_over(now) ? off_word(drive) : controlword::kQuickStop;
     case GroupState::kFault:
       if (resetting_) {
         return drive.in_fault() ? controlword::kFaultReset : controlword::kDisableVoltage;
@@ -194,8 +210,10 @@ std::uint16_t DriveGroup::controlword_for(const WheelDrive& drive, Instant now) 
   return controlword::kDisableVoltage;
 }
 
-std::uint16_t DriveGroup::off_word() const noexcept {
-  return voltage_off_ ? controlword::kDisableVoltage : controlword::kShutdown;
+// No way leads from Quick Stop Active to Ready to Switch On; a drive whose 605Ah keeps it there leaves by this.
+std::uint16_t DriveGroup::off_word(const WheelDrive& drive) const noexcept {
+  return voltage_off_ || drive.power_state() == PowerState::kQuickStopActive ? controlword::kDisableVoltage
+                                                                             : controlword::kShutdown;
 }
 
 bool DriveGroup::quick_stop_over(Instant now) const noexcept {

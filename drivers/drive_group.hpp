@@ -56,7 +56,8 @@ struct GroupFeedback {
 /// carries the stop. So do a lost or flooded bus, lost frames, another master, and kUnsentWrites writes in a row that
 /// the bus did not take whole. Being powered in kReady is forgiven for rates::kUnaskedPowerTimeout. A drive whose TPDO1
 /// does not come may have lost SYNC, and then no RPDO acts on it: in kFault it is told to leave NMT state Operational
-/// too, which makes it stop by 6007h.
+/// too, which makes it stop by 6007h. So is one that still has power when quick stop and voltage off had their time,
+/// and then our heartbeat ends as well.
 class DriveGroup {
  public:
   /// `bus` outlives this. Silent until open().
@@ -121,7 +122,9 @@ class DriveGroup {
   void begin_stop(Instant now) noexcept;
   void enter(GroupState state, Instant now) noexcept;
   [[nodiscard]] std::uint16_t controlword_for(const WheelDrive& drive, Instant now) const noexcept;
-  [[nodiscard]] std::uint16_t off_word() const noexcept;
+  [[nodiscard]] std::uint16_t off_word(const WheelDrive& drive) const noexcept;
+  [[nodiscard]] bool may_say_alive(Instant now) noexcept;
+  [[nodiscard]] bool disobeys(const WheelDrive& drive, Instant now) const noexcept;
   [[nodiscard]] bool quick_stop_over(Instant now) const noexcept;
   [[nodiscard]] bool all_off() const noexcept;
   [[nodiscard]] bool may_end(Instant now) const noexcept;
@@ -147,6 +150,8 @@ class DriveGroup {
   int syncs_since_off_ = 0;               // SYNCs that went out after such, in a row
   int unsent_writes_ = 0;                 // in a row, not taken whole by the bus
   std::optional<Instant> powered_since_;  // in kReady, unasked
+  bool disobeyed_ = false;                // since open(), a drive kept its power in kFault: our heartbeat ends
+  std::uint64_t dropped_before_ = 0;      // by the bus
   bool reset_asked_ = false;
   std::array<std::optional<Instant>, rates::kResetLimit> resets_;  // the last ones, a ring
   std::size_t next_reset_ = 0;

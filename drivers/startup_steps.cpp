@@ -24,13 +24,16 @@ constexpr std::uint32_t microseconds(Duration d) noexcept {
 
 void add(StartupSteps& steps, const StartupStep& step) noexcept { IVO_CONTRACT(steps.push_back(step)); }
 
-void add_identity(StartupSteps& steps, const DriveParameters& drive) noexcept {
+void add_device_type(StartupSteps& steps) noexcept {
   add(steps, {.name = "device type 1000h",
               .action = StepAction::kVerify,
               .object = object::kDeviceType,
               .bytes = 4,
               .value = cia402::kProfileNumber,
               .mask = 0xFFFF});
+}
+
+void add_identity(StartupSteps& steps, const DriveParameters& drive) noexcept {
   if (drive.vendor_id != 0) {
     add(steps, {.name = "vendor-ID 1018h:1",
                 .action = StepAction::kVerify,
@@ -97,6 +100,19 @@ void add_sync(StartupSteps& steps, Duration cycle) noexcept {
 
 // A drive whose clock has a coarse tick may round our time up, by less than two of our heartbeats.
 void add_supervision(StartupSteps& steps, std::uint8_t master_node_id) noexcept {
+  // A drive that stayed Operational when its master is lost would act on whatever RPDO and SYNC still come.
+  add(steps, {.name = "error behaviour 1029h:1",
+              .action = StepAction::kWrite,
+              .object = object::kErrorBehaviour,
+              .bytes = 1,
+              .value = 0,
+              .may_refuse = true});
+  add(steps, {.name = "error behaviour 1029h:1 in force: 0 or 2, Pre-operational or Stopped",
+              .action = StepAction::kVerifyOneOf,
+              .object = object::kErrorBehaviour,
+              .bytes = 1,
+              .value = 1U << 0 | 1U << 2,
+              .may_be_missing = true});
   const std::uint32_t master = std::uint32_t{master_node_id} << 16;
   add(steps, {.name = "consumer heartbeat time 1016h:1",
               .object = object::kConsumerHeartbeat,
@@ -215,8 +231,9 @@ void add_mode(StartupSteps& steps) noexcept {
 StartupSteps startup_steps(const Robot& robot, Wheel wheel) noexcept {
   const DriveParameters& drive = robot.drives[static_cast<std::size_t>(wheel)];
   StartupSteps steps;
-  add_identity(steps, drive);
+  add_device_type(steps);
   add_stop(steps);
+  add_identity(steps, drive);
   add_kept(steps);
   add_mode_choice(steps);
   add_sync(steps, robot.cycle);

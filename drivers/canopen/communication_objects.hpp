@@ -15,6 +15,7 @@ inline constexpr ObjectAddress kVendorId{0x1018, 1};
 inline constexpr ObjectAddress kProductCode{0x1018, 2};
 inline constexpr ObjectAddress kRevisionNumber{0x1018, 3};
 inline constexpr ObjectAddress kSerialNumber{0x1018, 4};
+inline constexpr ObjectAddress kErrorBehaviour{0x1029, 1};  // of a communication error
 inline constexpr ObjectAddress kRpdo1CobId{0x1400, 1};
 inline constexpr ObjectAddress kRpdo1Type{0x1400, 2};
 inline constexpr ObjectAddress kRpdo1Count{0x1600, 0};

@@ -10,8 +10,9 @@ namespace {
 
 using std::chrono_literals::operator""ms;
 
-constexpr Duration kPositionEvery = 200ms;  // in the event log
-constexpr int kLongestStep = 2;             // cycles: a late one must not let the velocity jump
+constexpr Duration kPositionEvery = 200ms;    // in the event log
+constexpr std::int64_t kForgetPeriodIn = 20;  // cycles in time make one lost period forgotten
+constexpr int kLongestStep = 2;               // cycles: a late one must not let the velocity jump
 // After this long in an end mode nobody waits for the drives any more: they stop by our missing heartbeat.
 constexpr Duration kGiveUp = rates::kStandstillTimeout + rates::kStateChangeTimeout;
 
@@ -43,6 +44,7 @@ ControlLoop::ControlLoop(const LoopSetup& setup, planner::Planner& planner, hal:
       search_(planner.cells(), setup.searchers),
       object_(setup.object),
       start_(setup.start),
+      cycle_(setup.robot.cycle),
       longest_step_(kLongestStep * setup.robot.cycle),
       fault_waits_(setup.fault_waits) {
   odometry_.reset(start_);
@@ -54,11 +56,13 @@ void ControlLoop::open(Instant now) noexcept {
 }
 
 void ControlLoop::cycle(Instant now, std::int64_t skipped) noexcept {
+  // What the scheduler tells is of the cycle before; one that overslept sees it by its own clock.
+  const std::int64_t late = std::max<std::int64_t>(skipped, (now - now_) / cycle_ - 1);
   dt_ = std::min(now - now_, longest_step_);
   now_ = now;
   take_commands();
   drain_bus();
-  look_at_ourselves(skipped);
+  look_at_ourselves(skipped, late);
   look_at_stop_inputs();
   look_at_drives();
   look_for_object();
@@ -131,13 +135,16 @@ void ControlLoop::look_at_stop_inputs() noexcept {
   }
 }
 
-void ControlLoop::look_at_ourselves(std::int64_t skipped) noexcept {
+void ControlLoop::look_at_ourselves(std::int64_t skipped, std::int64_t late) noexcept {
   if (skipped > 0) {
     counters_.skipped += static_cast<std::uint64_t>(skipped);
     record(EventKind::kOverrun, 0, static_cast<std::int32_t>(skipped));
   }
-  if (skipped >= rates::kLatestPeriods && permissions(mode_).may_move) {
-    fail({.reason = drivers::DriveFaultReason::kCycleLate, .code = static_cast<std::uint32_t>(skipped)});
+  lateness_ = std::max<std::int64_t>(0, lateness_ - 1) + kForgetPeriodIn * std::max<std::int64_t>(late, 0);
+  if (!permissions(mode_).may_move) {
+    lateness_ = 0;
+  } else if (lateness_ >= kForgetPeriodIn * rates::kLatestPeriods) {
+    fail({.reason = drivers::DriveFaultReason::kCycleLate, .code = static_cast<std::uint32_t>(late)});
   }
 }
 

@@ -69,7 +69,7 @@ class ControlLoop {
   void drain_bus() noexcept;
   void look_at_drives() noexcept;
   void look_at_stop_inputs() noexcept;
-  void look_at_ourselves(std::int64_t skipped) noexcept;
+  void look_at_ourselves(std::int64_t skipped, std::int64_t late) noexcept;
   void look_for_object() noexcept;
   void decide_mode() noexcept;
   [[nodiscard]] Twist choose_velocity() noexcept;
@@ -101,7 +101,9 @@ class ControlLoop {
   SearchRun search_;
   SearchObject object_;
   Pose start_;
+  Duration cycle_;
   Duration longest_step_;
+  std::int64_t lateness_ = 0;  // kForgetPeriodIn for each lost period, one less each cycle
   bool fault_waits_;
 
   // Of the cycle under way.

@@ -38,8 +38,15 @@ constexpr std::uint16_t kControlword = 0x6040;     // CiA 402-2
 constexpr std::uint16_t kTargetVelocity = 0x60FF;  // CiA 402-2
 
 constexpr std::array<std::string_view, kFrameRefusals> kNames{
-    "none",          "COB-ID not on the list",   "wrong size",           "NMT command not ours to send",
-    "motion by SDO", "target velocity too high", "motion not permitted", "SDO in motion",
+    "none",
+    "COB-ID not on the list",
+    "wrong size",
+    "NMT command not ours to send",
+    "motion by SDO",
+    "target velocity too high",
+    "motion not permitted",
+    "SDO in motion",
+    "another wheel's motion was refused",
 };
 
 std::uint16_t controlword_at(const hal::CanFrame& frame, std::size_t at) noexcept {

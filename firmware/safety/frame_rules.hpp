@@ -23,8 +23,9 @@ enum class FrameRefusal : std::uint8_t {
   kTargetTooHigh,       ///< beyond the wheel's largest speed
   kMotionNotPermitted,  ///< enables operation or carries a target, without a permit
   kSdoInMotion,         ///< an SDO while motion is permitted: the bus and the drives have other work then
+  kNotWithTheOthers,    ///< could move a wheel, and another that should move with it was refused
 };
-inline constexpr int kFrameRefusals = 8;
+inline constexpr int kFrameRefusals = 9;
 
 [[nodiscard]] std::string_view name_of(FrameRefusal refusal) noexcept;
 

@@ -1,6 +1,9 @@
 #include "firmware/safety/guarded_bus.hpp"
 
+#include <algorithm>
 #include <numeric>
+
+#include "config/base/contract.hpp"
 
 namespace ivo::firmware {
 
@@ -11,20 +14,33 @@ std::size_t GuardedBus::receive(std::span<hal::ReceivedFrame> frames, Instant no
 }
 
 std::size_t GuardedBus::send(std::span<const hal::CanFrame> frames, Instant now) noexcept {
-  // Runs of good frames go on as they lie, so a span without a refusal is one call of the inner bus, without a copy.
-  std::size_t taken = 0;
-  std::size_t begin = 0;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    if (passes(frames[i])) {
-      continue;
+  IVO_CONTRACT(frames.size() <= passing_.size());
+  // Four wheels move together or not at all: one that may not keeps the others from it.
+  std::size_t passed = 0;
+  bool motion_refused = false;
+  for (const hal::CanFrame& frame : frames) {
+    const MotionWays moved = rules_.moved_by(frame);
+    const FrameRefusal refusal = judge(frame, moved);
+    if (refusal == FrameRefusal::kNone) {
+      passing_[passed++] = frame;
+    } else {
+      refuse(frame, refusal);
+      motion_refused = motion_refused || moved != 0;
     }
-    if (i > begin) {
-      taken += inner_.send(frames.subspan(begin, i - begin), now);
-    }
-    begin = i + 1;
+  }
+  if (motion_refused) {
+    const auto moves = [this](const hal::CanFrame& frame) {
+      const bool refused = rules_.moved_by(frame) != 0;
+      if (refused) {
+        refuse(frame, FrameRefusal::kNotWithTheOthers);
+      }
+      return refused;
+    };
+    const auto end = std::remove_if(passing_.begin(), passing_.begin() + static_cast<std::ptrdiff_t>(passed), moves);
+    passed = static_cast<std::size_t>(end - passing_.begin());
   }
   // Also with nothing left to send: what waits in the inner bus leaves with a later call of it.
-  return taken + inner_.send(frames.subspan(begin), now);
+  return inner_.send(std::span<const hal::CanFrame>(passing_).first(passed), now);
 }
 
 std::uint64_t GuardedBus::refused(FrameRefusal reason) const noexcept {
@@ -35,17 +51,18 @@ std::uint64_t GuardedBus::refused() const noexcept {
   return std::accumulate(refused_.begin(), refused_.end(), std::uint64_t{0});
 }
 
-bool GuardedBus::passes(const hal::CanFrame& frame) noexcept {
-  const MotionWays moved = rules_.moved_by(frame);
+FrameRefusal GuardedBus::judge(const hal::CanFrame& frame, MotionWays moved) noexcept {
   const bool permitted = moved != 0 ? (moved & ~permits_) == 0 : in_motion_;
   const FrameRefusal refusal = rules_.judge(frame, permitted);
-  if (refusal != FrameRefusal::kNone) {
-    ++refused_[static_cast<std::size_t>(refusal)];
-    last_refused_id_ = frame.id;
-    return false;
+  if (refusal == FrameRefusal::kNone) {
+    permits_ = static_cast<MotionWays>(permits_ & ~moved);
   }
-  permits_ = static_cast<MotionWays>(permits_ & ~moved);
-  return true;
+  return refusal;
+}
+
+void GuardedBus::refuse(const hal::CanFrame& frame, FrameRefusal refusal) noexcept {
+  ++refused_[static_cast<std::size_t>(refusal)];
+  last_refused_id_ = frame.id;
 }
 
 }  // namespace ivo::firmware

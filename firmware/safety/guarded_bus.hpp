@@ -7,13 +7,15 @@
 #include <optional>
 #include <span>
 
+#include "config/limits.hpp"
 #include "config/robot.hpp"
 #include "firmware/safety/frame_rules.hpp"
 #include "hal/api/can_bus.hpp"
 
 namespace ivo::firmware {
 
-/// Frames that FrameRules refuses never reach the inner bus; the others of the same span do, in order. Receiving, state
+/// Frames that FrameRules refuses never reach the inner bus; the others of the same span do, in order, in one call of
+/// it. A refused frame that could move a wheel takes with it all others of the span that could. Receiving, state
 /// and the bus's own counters are the inner bus's. One thread: the loop's.
 class GuardedBus final : public hal::CanBus {
  public:
@@ -43,12 +45,14 @@ class GuardedBus final : public hal::CanBus {
   [[nodiscard]] std::optional<std::uint16_t> last_refused_id() const noexcept { return last_refused_id_; }
 
  private:
-  bool passes(const hal::CanFrame& frame) noexcept;
+  [[nodiscard]] FrameRefusal judge(const hal::CanFrame& frame, MotionWays moved) noexcept;
+  void refuse(const hal::CanFrame& frame, FrameRefusal refusal) noexcept;
 
   hal::CanBus& inner_;
   FrameRules rules_;
   bool in_motion_ = false;
   MotionWays permits_ = 0;  // not used yet
+  std::array<hal::CanFrame, limits::kFramesPerCycle> passing_{};
   std::array<std::uint64_t, kFrameRefusals> refused_{};
   std::optional<std::uint16_t> last_refused_id_;
 };

@@ -198,6 +198,10 @@ class Run {
         break;
       case Mode::kStarting:
         show_plan_once(status);
+        if (answered_) {  // the drives were ready, and are not any more: what was said counts for nothing
+          answered_ = false;
+          question_ = {};
+        }
         terminal_.show_starting(status);
         break;
       case Mode::kAwaitingConsent:

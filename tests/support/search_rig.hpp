@@ -60,6 +60,12 @@ class SearchRig {
     true_position_.y_m += velocity({-1, 1, 1, -1}) * seconds(rates::kCycle);
     return loop_->status();
   }
+  /// The loop oversleeps; the drives do not.
+  void sleep(Duration time) {
+    for (const Instant end = now_ + time; now_ < end; now_ += rates::kCycle) {
+      drives_.update(now_);
+    }
+  }
   /// `periods` pass before the next cycle, without one.
   void be_late(int periods) {
     for (; periods > 0; --periods) {

@@ -18,7 +18,7 @@ Robot slow(Robot robot) noexcept {
 }  // namespace
 
 WheelTurner::WheelTurner(hal::CanBus& bus, const Robot& robot) noexcept
-    : bus_(bus, slow(robot)), drives_(bus_, robot), longest_step_(2 * robot.cycle) {
+    : bus_(bus, slow(robot)), drives_(bus_, robot), cycle_(robot.cycle), longest_step_(2 * robot.cycle) {
   std::ranges::transform(robot.drives, scales_.begin(), TurnMeasure::scale_of);
 }
 
@@ -39,10 +39,12 @@ void WheelTurner::give(const TurnOrder& order) noexcept {
 }
 
 const TurnStatus& WheelTurner::cycle(Instant now, std::int64_t skipped, const Keys& keys) noexcept {
+  // What the scheduler tells is of the cycle before; one that overslept sees it by its own clock.
+  const std::int64_t late = std::max<std::int64_t>(skipped, (now - now_) / cycle_ - 1);
   dt_ = std::min(now - now_, longest_step_);
   now_ = now;
   drain_bus();
-  look_at_drives(skipped);
+  look_at_drives(late);
   listen_to_keys(keys);
   measure();
   look_for_end(keys);

@@ -106,6 +106,7 @@ class WheelTurner {
 
   GuardedBus bus_;
   drivers::DriveGroup drives_;
+  Duration cycle_;
   Duration longest_step_;
   std::array<TurnMeasure::Scale, kWheels> scales_;
   DeadMan key_;

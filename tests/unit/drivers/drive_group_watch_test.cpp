@@ -171,8 +171,17 @@ TEST_F(DriveGroupWatch, ADriveThatMissesSyncIsToldToLeaveOperational) {
   EXPECT_TRUE(all_at_rest(rig_));
 }
 
+// Drives that do not watch their RPDO (1400h:5): nothing but our heartbeat tells them that we are there.
+SimDrives::Scripts without_deadline() {
+  SimDrives::Scripts scripts;
+  for (SimScript& script : scripts) {
+    script.stuck = SimScript::Stuck{.object = {0x1400, 5}, .value = 0, .code = {}};
+  }
+  return scripts;
+}
+
 TEST(DriveGroup, ADriveThatTurnsForADeadMasterIsNotKeptGoingByOurHeartbeat) {
-  Rig rig;
+  Rig rig(without_deadline());
   ASSERT_TRUE(rig.drive_at(5.0));
   DriveGroup successor(rig.bus.port(4), rig.robot);
   successor.open(rig.clock.now());
@@ -184,6 +193,53 @@ TEST(DriveGroup, ADriveThatTurnsForADeadMasterIsNotKeptGoingByOurHeartbeat) {
     rig.drives.update(rig.clock.now());
   }
   EXPECT_FALSE(any_enabled(rig));
+}
+
+TEST(DriveGroup, DrivesStopByOurMissingHeartbeatAlone) {
+  Rig rig(without_deadline());
+  ASSERT_TRUE(rig.drive_at(5.0));
+  const Instant silent_since = rig.clock.now();
+  while (any_enabled(rig)) {
+    rig.clock.sleep_until(rig.clock.now() + rates::kCycle);
+    rig.drives.update(rig.clock.now());
+    ASSERT_LE(rig.clock.now() - silent_since, rates::kMasterHeartbeatTimeout + 2 * rates::kCycle);
+  }
+}
+
+TEST(DriveGroup, ASecondDriveThatMissesSyncAfterAnotherFaultLeavesOperationalToo) {
+  Rig rig(without_deadline());
+  ASSERT_TRUE(rig.drive_at(5.0));
+  rig.group.fail({.reason = DriveFaultReason::kStopInput}, rig.clock.now());
+  rig.drives.drive(Wheel::kRearLeft).script().feedback_lost_from = rig.clock.now();
+  rig.run(milliseconds(100));
+  EXPECT_EQ(rig.drives.drive(Wheel::kRearLeft).nmt_state(), NmtState::kPreOperational);
+}
+
+TEST(DriveGroup, ADriveThatDoesNotObeyIsTakenOutOfOperationalAndLosesOurHeartbeat) {
+  Rig rig(without_deadline());
+  ASSERT_TRUE(rig.drive_at(5.0));
+  rig.bus.lose(0x203, 1'000'000);
+  rig.group.fail({.reason = DriveFaultReason::kStopInput}, rig.clock.now());
+  rig.run(milliseconds(3900));
+  EXPECT_EQ(rig.drives.drive(Wheel::kRearLeft).power_state(), cia402::PowerState::kOperationEnabled);
+  rig.run(milliseconds(1500));
+  EXPECT_TRUE(all_at_rest(rig));
+  EXPECT_FALSE(any_enabled(rig));
+  rig.log.clear();
+  rig.run(seconds(1));
+  EXPECT_TRUE(std::ranges::none_of(rig.log, [](const hal::CanFrame& frame) { return frame.id == 0x77F; }));
+}
+
+TEST(DriveGroup, ADriveThatStaysInQuickStopActiveIsPoweredOff) {
+  SimDrives::Scripts scripts;
+  scripts[2].stuck = SimScript::Stuck{.object = {0x605A, 0}, .value = 6, .code = {}};
+  Rig rig(scripts);
+  ASSERT_TRUE(rig.drive_at(5.0));
+  rig.enable = false;  // in motion: a quick stop
+  ASSERT_TRUE(rig.run_until(GroupState::kReady)) << describe(rig.feedback.fault);
+  EXPECT_LT(rig.clock.now().time_since_epoch(), seconds(10));
+  rig.run(seconds(1));
+  EXPECT_EQ(rig.feedback.state, GroupState::kReady);
 }
 
 TEST_F(DriveGroupWatch, DrivesThatMissedOurHeartbeatAreStartedUpAnew) {

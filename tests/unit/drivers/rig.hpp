@@ -36,15 +36,22 @@ class NarrowBus final : public hal::CanBus {
     return inner_.receive(frames, now);
   }
   std::size_t send(std::span<const hal::CanFrame> frames, Instant now) noexcept override {
-    return inner_.send(frames.first(std::min(frames.size(), room)), now);
+    const std::size_t taken = std::min(frames.size(), room);
+    dropped_ += frames.size() - taken;
+    return inner_.send(frames.first(taken), now);
   }
   [[nodiscard]] hal::BusState state() const noexcept override { return inner_.state(); }
-  [[nodiscard]] hal::BusCounters counters() const noexcept override { return inner_.counters(); }
+  [[nodiscard]] hal::BusCounters counters() const noexcept override {
+    hal::BusCounters counters = inner_.counters();
+    counters.send_dropped += dropped_;
+    return counters;
+  }
 
   std::size_t room = 1000;
 
  private:
   hal::CanBus& inner_;
+  std::uint64_t dropped_ = 0;
 };
 
 class Rig {

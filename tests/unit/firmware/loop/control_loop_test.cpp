@@ -385,6 +385,29 @@ TEST(ControlLoop, AVeryLateCycleStopsTheRobotAndAFewLostPeriodsDoNot) {
   EXPECT_FALSE(rig.wheels_turn());
 }
 
+TEST(ControlLoop, ACycleThatOversleptStopsTheRobotItself) {
+  SearchRig rig({});
+  ASSERT_TRUE(rig.start_search());
+  rig.run(4s);
+  rig.sleep(20ms);  // nobody was told yet that periods are lost
+  EXPECT_EQ(rig.cycle().mode, Mode::kFault);
+  EXPECT_EQ(rig.loop().status().drive_fault.reason, drivers::DriveFaultReason::kCycleLate);
+}
+
+TEST(ControlLoop, LatenessThatDoesNotEndStopsTheRobotToo) {
+  SearchRig rig({});
+  ASSERT_TRUE(rig.start_search());
+  rig.run(4s);
+  for (int i = 0; i < 4; ++i) {
+    ASSERT_EQ(rig.cycle(1).mode, Mode::kSearching);
+    rig.run(40ms);
+  }
+  rig.cycle(3);
+  EXPECT_EQ(rig.loop().status().mode, Mode::kSearching);
+  rig.cycle(3);
+  EXPECT_EQ(rig.loop().status().mode, Mode::kFault);
+}
+
 TEST(ControlLoop, SkippedPeriodsAreCountedAndRecorded) {
   SearchRig rig({});
   rig.loop().cycle(rig.now(), 3);
