@@ -11,20 +11,21 @@ std::size_t GuardedBus::receive(std::span<hal::ReceivedFrame> frames, Instant no
 }
 
 std::size_t GuardedBus::send(std::span<const hal::CanFrame> frames, Instant now) noexcept {
-  // Runs of good frames go on as they lie, so a span without a refusal is one call of the inner bus, without a copy.
+  // One call of the inner bus, also with nothing to say: what waits there may be due. More frames than one cycle has
+  // are several calls.
   std::size_t taken = 0;
-  std::size_t begin = 0;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    if (passes(frames[i])) {
+  passed_.clear();
+  for (const hal::CanFrame& frame : frames) {
+    if (!passes(frame)) {
       continue;
     }
-    if (i > begin) {
-      taken += inner_.send(frames.subspan(begin, i - begin), now);
+    if (passed_.full()) {
+      taken += inner_.send(passed_.span(), now);
+      passed_.clear();
     }
-    begin = i + 1;
+    (void)passed_.push_back(frame);
   }
-  // Also with nothing left to send: what waits in the inner bus leaves with a later call of it.
-  return taken + inner_.send(frames.subspan(begin), now);
+  return taken + inner_.send(passed_.span(), now);
 }
 
 std::uint64_t GuardedBus::refused(FrameRefusal reason) const noexcept {

@@ -7,6 +7,8 @@
 #include <optional>
 #include <span>
 
+#include "config/base/static_vector.hpp"
+#include "config/limits.hpp"
 #include "config/robot.hpp"
 #include "firmware/safety/frame_rules.hpp"
 #include "hal/api/can_bus.hpp"
@@ -31,9 +33,11 @@ class GuardedBus final : public hal::CanBus {
 
   std::size_t receive(std::span<hal::ReceivedFrame> frames, Instant now) noexcept override;
 
-  /// How many of the frames the inner bus took; refused ones are not among them.
+  /// How many of the frames the inner bus took; refused ones are not among them. Cost: a copy of those that pass. Of
+  /// more than limits::kFramesPerCycle frames handed_over() tells the last part.
   std::size_t send(std::span<const hal::CanFrame> frames, Instant now) noexcept override;
 
+  [[nodiscard]] std::span<const hal::CanFrame> handed_over() const noexcept override { return inner_.handed_over(); }
   [[nodiscard]] hal::BusState state() const noexcept override { return inner_.state(); }
   [[nodiscard]] hal::BusCounters counters() const noexcept override { return inner_.counters(); }
 
@@ -48,7 +52,8 @@ class GuardedBus final : public hal::CanBus {
   hal::CanBus& inner_;
   FrameRules rules_;
   bool in_motion_ = false;
-  MotionWays permits_ = 0;  // not used yet
+  MotionWays permits_ = 0;                                       // not used yet
+  StaticVector<hal::CanFrame, limits::kFramesPerCycle> passed_;  // of one send
   std::array<std::uint64_t, kFrameRefusals> refused_{};
   std::optional<std::uint16_t> last_refused_id_;
 };

@@ -40,6 +40,7 @@ class Street final : public hal::CanBus {
     }
     return inner_.send(frames.first(std::min(frames.size(), room)), now);
   }
+  [[nodiscard]] std::span<const hal::CanFrame> handed_over() const noexcept override { return inner_.handed_over(); }
   [[nodiscard]] hal::BusState state() const noexcept override { return inner_.state(); }
   [[nodiscard]] hal::BusCounters counters() const noexcept override { return inner_.counters(); }
 

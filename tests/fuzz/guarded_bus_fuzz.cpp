@@ -22,8 +22,10 @@ class Street final : public hal::CanBus {
     for (const hal::CanFrame& frame : frames) {
       judge(frame);
     }
+    last_ = frames;
     return frames.size();
   }
+  [[nodiscard]] std::span<const hal::CanFrame> handed_over() const noexcept override { return last_; }
   [[nodiscard]] hal::BusState state() const noexcept override { return hal::BusState::kActive; }
   [[nodiscard]] hal::BusCounters counters() const noexcept override { return {}; }
 
@@ -59,6 +61,7 @@ class Street final : public hal::CanBus {
   }
 
   const Robot& robot_;
+  std::span<const hal::CanFrame> last_;
   std::array<bool, kWheels> enables_left_{};
   std::array<bool, kWheels> targets_left_{};
 };

@@ -38,6 +38,7 @@ class NarrowBus final : public hal::CanBus {
   std::size_t send(std::span<const hal::CanFrame> frames, Instant now) noexcept override {
     return inner_.send(frames.first(std::min(frames.size(), room)), now);
   }
+  [[nodiscard]] std::span<const hal::CanFrame> handed_over() const noexcept override { return inner_.handed_over(); }
   [[nodiscard]] hal::BusState state() const noexcept override { return inner_.state(); }
   [[nodiscard]] hal::BusCounters counters() const noexcept override { return inner_.counters(); }
 

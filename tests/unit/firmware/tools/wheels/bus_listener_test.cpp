@@ -110,7 +110,8 @@ TEST(BusListener, SaysEachChangeOnceAndInWords) {
   EXPECT_EQ(count("rear left: NMT operational\n"), 1) << text;
   EXPECT_EQ(count("rear left: switch on disabled"), 1) << text;
   EXPECT_EQ(count("rear left: fault (statusword"), 1) << text;
-  EXPECT_EQ(count("rear left: emergency 7300h: sensor (error register 21h)\n"), 1) << text;
+  EXPECT_EQ(count("rear left: emergency 7300h, sensor (error register 21h: generic, device profile; vendor "), 1)
+      << text;
   EXPECT_EQ(count("front left: emergency"), 0) << text;
   EXPECT_EQ(count("controller: its heartbeat is heard\n"), 1) << text;
 }
