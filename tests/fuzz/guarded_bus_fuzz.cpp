@@ -6,6 +6,7 @@
 #include "firmware/safety/guarded_bus.hpp"
 #include "tests/fuzz/command_oracle.hpp"
 #include "tests/fuzz/input.hpp"
+#include "tests/fuzz/robots.hpp"
 
 namespace {
 
@@ -66,17 +67,6 @@ class Street final : public hal::CanBus {
   std::array<bool, kWheels> targets_left_{};
 };
 
-const Robot& robot_of(unsigned layout) {
-  static const std::array<Robot, 2> robots = [] {
-    std::array<Robot, 2> both{};
-    both[1].pdo_layout = PdoLayout::kShared;
-    both[1].cycle = std::chrono::milliseconds(1);
-    both[1].drives[2].gear_ratio = 20.0;
-    return both;
-  }();
-  return robots[layout];
-}
-
 std::uint16_t interesting_id(fuzz::Input& input) {
   static constexpr std::array<std::uint16_t, 12> kFunctions = {0x000, 0x080, 0x180, 0x200, 0x280, 0x300,
                                                                0x400, 0x500, 0x580, 0x600, 0x700, 0x780};
@@ -87,7 +77,7 @@ std::uint16_t interesting_id(fuzz::Input& input) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzz::Input input(data, size);
-  const Robot& robot = robot_of(input.up_to(1));
+  const Robot& robot = fuzz::robot_of(input.up_to(1));
   Street street(robot);
 #ifdef IVO_DOOR_LEFT_OPEN
   Street& door = street;
