@@ -12,7 +12,7 @@
 namespace ivo::firmware {
 
 struct RecordedFrame {
-  Instant at{};  ///< of a received frame its arrival, of a sent one the cycle that sent it
+  Instant at{};  ///< of a received frame its arrival, of a sent one the cycle that handed it over
   hal::CanFrame frame;
 };
 
@@ -36,12 +36,13 @@ class RecordingBus final : public hal::CanBus {
 
   std::size_t send(std::span<const hal::CanFrame> frames, Instant now) noexcept override {
     const std::size_t count = inner_.send(frames, now);
-    for (const hal::CanFrame& sent : frames.first(count)) {
+    for (const hal::CanFrame& sent : inner_.handed_over()) {  // not those of `frames`: some wait, some have waited
       keep(sent, now);
     }
     return count;
   }
 
+  [[nodiscard]] std::span<const hal::CanFrame> handed_over() const noexcept override { return inner_.handed_over(); }
   [[nodiscard]] hal::BusState state() const noexcept override { return inner_.state(); }
   [[nodiscard]] hal::BusCounters counters() const noexcept override { return inner_.counters(); }
 

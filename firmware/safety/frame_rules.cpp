@@ -127,7 +127,8 @@ FrameRefusal FrameRules::judge(const hal::CanFrame& frame, bool motion_permitted
 
 MotionWays FrameRules::moved_by(const hal::CanFrame& frame) const noexcept {
   MotionWays ways = 0;
-  for (const Part& part : commands_in(frame).span()) {
+  const Parts parts = commands_in(frame);
+  for (const Part& part : parts.span()) {
     ways = static_cast<MotionWays>(ways | (moves(part) ? part.way : 0));
   }
   return ways;

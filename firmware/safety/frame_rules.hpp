@@ -70,7 +70,8 @@ class FrameRules {
     std::array<Part, 2> parts{};
     std::size_t count = 0;
     std::uint8_t size = 0;  // that the frame must have
-    [[nodiscard]] std::span<const Part> span() const noexcept { return {parts.data(), count}; }
+    [[nodiscard]] std::span<const Part> span() const& noexcept { return {parts.data(), count}; }
+    std::span<const Part> span() const&& = delete;  // it would outlive what it shows
   };
 
   [[nodiscard]] FrameRefusal judge_nmt(const hal::CanFrame& frame) const noexcept;

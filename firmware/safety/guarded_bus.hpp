@@ -33,9 +33,11 @@ class GuardedBus final : public hal::CanBus {
 
   std::size_t receive(std::span<hal::ReceivedFrame> frames, Instant now) noexcept override;
 
-  /// How many of the frames the inner bus took; refused ones are not among them.
+  /// How many of the frames the inner bus took; refused ones are not among them. Cost: a copy of those that pass. Of
+  /// more than limits::kFramesPerCycle frames handed_over() tells the last part.
   std::size_t send(std::span<const hal::CanFrame> frames, Instant now) noexcept override;
 
+  [[nodiscard]] std::span<const hal::CanFrame> handed_over() const noexcept override { return inner_.handed_over(); }
   [[nodiscard]] hal::BusState state() const noexcept override { return inner_.state(); }
   [[nodiscard]] hal::BusCounters counters() const noexcept override { return inner_.counters(); }
 

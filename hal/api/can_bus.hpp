@@ -62,6 +62,10 @@ class CanBus {
   /// cycle, with nothing to say too.
   virtual std::size_t send(std::span<const CanFrame> frames, Instant now) noexcept = 0;
 
+  /// The frames that the last send() handed over, in the order in which they went: those that waited since an earlier
+  /// call among them. None when the bus was lost by then. Valid until the next call of this bus.
+  [[nodiscard]] virtual std::span<const CanFrame> handed_over() const noexcept = 0;
+
   [[nodiscard]] virtual BusState state() const noexcept = 0;
   [[nodiscard]] virtual BusCounters counters() const noexcept = 0;
 };

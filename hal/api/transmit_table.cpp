@@ -148,8 +148,8 @@ void TransmitTable::forget() noexcept {
 }
 
 bool TransmitTable::just_handed_over(std::uint16_t id) const noexcept {
-  return std::any_of(frames_.begin(), frames_.begin() + static_cast<std::ptrdiff_t>(taken_of_batch_),
-                     [id](const CanFrame& frame) { return frame.id == id; });
+  const auto taken = just_handed_over();
+  return std::any_of(taken.begin(), taken.end(), [id](const CanFrame& frame) { return frame.id == id; });
 }
 
 // NMT commands share one COB-ID: two nodes' must not replace each other.

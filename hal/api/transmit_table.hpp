@@ -59,7 +59,12 @@ class TransmitTable {
 
   /// Nothing has left for rates::kTransmitTimeout though something is in flight; until the next echo or forget().
   [[nodiscard]] bool unconfirmed() const noexcept { return unconfirmed_; }
-  /// The last handed_over() took a frame with this COB-ID, given then or left over.
+  /// What the last handed_over() took, in order, given then or left over; none after forget(). Valid until the next
+  /// offer().
+  [[nodiscard]] std::span<const CanFrame> just_handed_over() const noexcept {
+    return std::span(frames_).first(taken_of_batch_);
+  }
+  /// A frame with this COB-ID is among them.
   [[nodiscard]] bool just_handed_over(std::uint16_t id) const noexcept;
   [[nodiscard]] std::size_t waiting() const noexcept { return waiting_.size(); }
   [[nodiscard]] std::size_t in_flight() const noexcept { return in_flight_.size(); }

@@ -55,6 +55,7 @@ class LockStep final : public CanBus, public Clock {
   /// Hands out what arrived during sleep_until, and nothing that arrives later.
   std::size_t receive(std::span<ReceivedFrame> frames, Instant now) noexcept override;
   std::size_t send(std::span<const CanFrame> frames, Instant now) noexcept override;
+  [[nodiscard]] std::span<const CanFrame> handed_over() const noexcept override { return bus_.handed_over(); }
   [[nodiscard]] BusState state() const noexcept override { return bus_.state(); }
   [[nodiscard]] BusCounters counters() const noexcept override;
 

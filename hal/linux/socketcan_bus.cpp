@@ -162,10 +162,10 @@ std::size_t SocketCanBus::send(std::span<const CanFrame> frames, Instant now) no
     return 0;
   }
   const CallResult sent = s.out.send(s.socket.get(), batch);
-  const std::size_t taken = s.table.handed_over(sent.count, now);
   if (sent.count > 0 && s.link == Link::kDown) {
-    s.set_link(Link::kUp);
+    s.set_link(Link::kUp);  // forgets what was on its way before, and nothing of what is now
   }
+  const std::size_t taken = s.table.handed_over(sent.count, now);
   if (sent.count < batch.size()) {
     ++s.details.queue_full;
     s.note_error(sent.error);
@@ -175,6 +175,8 @@ std::size_t SocketCanBus::send(std::span<const CanFrame> frames, Instant now) no
   }
   return taken;
 }
+
+std::span<const CanFrame> SocketCanBus::handed_over() const noexcept { return state_->table.just_handed_over(); }
 
 BusState SocketCanBus::state() const noexcept {
   const State& s = *state_;

@@ -64,6 +64,7 @@ class SocketCanBus final : public CanBus {
 
   std::size_t receive(std::span<ReceivedFrame> frames, Instant now) noexcept override;
   std::size_t send(std::span<const CanFrame> frames, Instant now) noexcept override;
+  [[nodiscard]] std::span<const CanFrame> handed_over() const noexcept override;
   [[nodiscard]] BusState state() const noexcept override;
   [[nodiscard]] BusCounters counters() const noexcept override;
   [[nodiscard]] Details details() const noexcept;

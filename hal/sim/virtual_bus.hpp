@@ -43,6 +43,7 @@ class VirtualBus {
    public:
     std::size_t receive(std::span<ReceivedFrame> frames, Instant now) noexcept override;
     std::size_t send(std::span<const CanFrame> frames, Instant now) noexcept override;
+    [[nodiscard]] std::span<const CanFrame> handed_over() const noexcept override { return table_.just_handed_over(); }
     [[nodiscard]] BusState state() const noexcept override { return state_; }
     [[nodiscard]] BusCounters counters() const noexcept override;
 

@@ -50,6 +50,9 @@ void decode(const hal::CanFrame& frame) {
               "operation is enabled only when it is the goal");
     }
   }
+  if (const auto pair = drivers::parse_target_pair(frame)) {
+    require(same(drivers::target_pair_frame(frame.id, *pair), frame), "a pair of targets is written as it was read");
+  }
   const int bits = drivers::bits_on_wire(frame);
   require(bits >= drivers::unstuffed_bits(frame.size) && bits <= drivers::longest_bits(frame.size),
           "a frame is as long as stuffing makes it");

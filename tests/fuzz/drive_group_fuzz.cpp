@@ -10,6 +10,7 @@
 #include "hal/sim/virtual_bus.hpp"
 #include "tests/fuzz/command_oracle.hpp"
 #include "tests/fuzz/input.hpp"
+#include "tests/fuzz/robots.hpp"
 
 namespace {
 
@@ -40,6 +41,7 @@ class Street final : public hal::CanBus {
     }
     return inner_.send(frames.first(std::min(frames.size(), room)), now);
   }
+  [[nodiscard]] std::span<const hal::CanFrame> handed_over() const noexcept override { return inner_.handed_over(); }
   [[nodiscard]] hal::BusState state() const noexcept override { return inner_.state(); }
   [[nodiscard]] hal::BusCounters counters() const noexcept override { return inner_.counters(); }
 
@@ -99,7 +101,7 @@ bool run_until(World& world, drivers::GroupState state, bool enable, const drive
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzz::Input input(data, size);
-  World world{Robot{}};
+  World world{fuzz::robot_of(input.up_to(1))};
   bool enable = false;
   bool permit = true;
   drivers::WheelTargets targets;
@@ -117,7 +119,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       case 2:
       case 3: {  // a stranger's frame, mostly in a drive's name
         static constexpr std::array<std::uint16_t, 8> kFunctions = {0x080, 0x180, 0x580, 0x700,
-                                                                    0x000, 0x200, 0x600, 0x280};
+                                                                    0x000, 0x200, 0x600, 0x300};
         const auto function = kFunctions[input.up_to(kFunctions.size() - 1)];
         const hal::CanFrame frame = input.frame(static_cast<std::uint16_t>(function + input.up_to(5)));
         (void)world.bus.port(2).send({&frame, 1}, world.now);

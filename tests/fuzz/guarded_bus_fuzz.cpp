@@ -6,6 +6,7 @@
 #include "firmware/safety/guarded_bus.hpp"
 #include "tests/fuzz/command_oracle.hpp"
 #include "tests/fuzz/input.hpp"
+#include "tests/fuzz/robots.hpp"
 
 namespace {
 
@@ -22,8 +23,10 @@ class Street final : public hal::CanBus {
     for (const hal::CanFrame& frame : frames) {
       judge(frame);
     }
+    last_ = frames;
     return frames.size();
   }
+  [[nodiscard]] std::span<const hal::CanFrame> handed_over() const noexcept override { return last_; }
   [[nodiscard]] hal::BusState state() const noexcept override { return hal::BusState::kActive; }
   [[nodiscard]] hal::BusCounters counters() const noexcept override { return {}; }
 
@@ -59,20 +62,10 @@ class Street final : public hal::CanBus {
   }
 
   const Robot& robot_;
+  std::span<const hal::CanFrame> last_;
   std::array<bool, kWheels> enables_left_{};
   std::array<bool, kWheels> targets_left_{};
 };
-
-const Robot& robot_of(unsigned layout) {
-  static const std::array<Robot, 2> robots = [] {
-    std::array<Robot, 2> both{};
-    both[1].pdo_layout = PdoLayout::kShared;
-    both[1].cycle = std::chrono::milliseconds(1);
-    both[1].drives[2].gear_ratio = 20.0;
-    return both;
-  }();
-  return robots[layout];
-}
 
 std::uint16_t interesting_id(fuzz::Input& input) {
   static constexpr std::array<std::uint16_t, 12> kFunctions = {0x000, 0x080, 0x180, 0x200, 0x280, 0x300,
@@ -84,7 +77,7 @@ std::uint16_t interesting_id(fuzz::Input& input) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzz::Input input(data, size);
-  const Robot& robot = robot_of(input.up_to(1));
+  const Robot& robot = fuzz::robot_of(input.up_to(1));
   Street street(robot);
 #ifdef IVO_DOOR_LEFT_OPEN
   Street& door = street;

@@ -1,4 +1,6 @@
 // One SDO transfer after the other, with any answers at any time.
+#include <algorithm>
+#include <array>
 #include <chrono>
 
 #include "config/rates.hpp"
@@ -31,10 +33,23 @@ int drain(drivers::SdoClient& client, Instant now) {
 void begin(drivers::SdoClient& client, fuzz::Input& input) {
   const drivers::ObjectAddress address{input.take<std::uint16_t>(), input.byte()};
   const auto bytes = static_cast<std::uint8_t>(1 + input.up_to(3));
-  if (input.up_to(1) == 0) {
-    client.start_upload(address, bytes);
-  } else {
-    client.start_download(address, bytes, input.take<std::uint32_t>());
+  switch (input.up_to(3)) {
+    case 0:
+      client.start_upload(address, bytes);
+      break;
+    case 1:
+      client.start_download(address, bytes, input.take<std::uint32_t>());
+      break;
+    case 2:
+      client.start_upload(address);
+      break;
+    default: {
+      std::array<std::uint8_t, drivers::SdoClient::kMostBytes> room{};
+      const auto data = std::span(room).first(input.up_to(room.size()));
+      std::ranges::generate(data, [&input] { return input.byte(); });
+      client.start_download(address, data);
+      break;
+    }
   }
 }
 
@@ -75,7 +90,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         }
         break;
     }
-    require(client.status() != SdoStatus::kDone || client.value() == client.value(), "a value can be read");
+    require(client.bytes().size() <= drivers::SdoClient::kMostBytes, "a transfer has no more bytes than it may");
+    require(client.text().size() <= client.bytes().size(), "a text is some of the bytes");
+    require(client.text().find('\0') == std::string_view::npos, "a text has no NUL");
   }
   // Left alone it ends by itself, and then it is quiet.
   if (client.status() == SdoStatus::kBusy) {

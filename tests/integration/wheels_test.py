@@ -38,7 +38,7 @@ class Wheels(unittest.TestCase):
         done = ivo("wheels", "list", "--sim")
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         for node, wheel in enumerate(("front left", "front right", "rear left", "rear right"), start=1):
-            self.assertRegex(done.stdout, rf"(?m)^ +{node}  {wheel} .* 402 .*PV CSV\*  switch on disabled$")
+            self.assertRegex(done.stdout, rf"(?m)^ +{node}  {wheel} .* 402 .*PV CSV\*  switch on disabled  IVO-class wheel drive$")
 
     def test_list_names_a_drive_that_is_missing_and_one_that_is_unknown(self):
         base = robot_with(self.folder, "base.toml", {("rear_left", "node_id"): "42"})

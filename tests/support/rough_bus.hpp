@@ -48,6 +48,7 @@ class RoughBus final : public hal::CanBus {
   std::size_t send(std::span<const hal::CanFrame> frames, Instant now) noexcept override {
     return inner_.send(frames.first(std::min(frames.size(), roughness.takes)), now);
   }
+  [[nodiscard]] std::span<const hal::CanFrame> handed_over() const noexcept override { return inner_.handed_over(); }
   [[nodiscard]] hal::BusState state() const noexcept override { return inner_.state(); }
   [[nodiscard]] hal::BusCounters counters() const noexcept override { return inner_.counters(); }
 
@@ -90,6 +91,7 @@ class ShadowedBus final : public hal::CanBus {
     shadow_.sent(leaving, taken);
     return std::min(taken, frames.size());
   }
+  [[nodiscard]] std::span<const hal::CanFrame> handed_over() const noexcept override { return inner_.handed_over(); }
   [[nodiscard]] hal::BusState state() const noexcept override { return inner_.state(); }
   [[nodiscard]] hal::BusCounters counters() const noexcept override { return inner_.counters(); }
 

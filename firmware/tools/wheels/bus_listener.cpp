@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "drivers/canopen/cob_id.hpp"
-#include "firmware/tools/wheels/frame_bits.hpp"
+#include "drivers/canopen/frame_bits.hpp"
 #include "firmware/tools/wheels/turn_measure.hpp"
 
 namespace ivo::firmware {
@@ -20,15 +20,24 @@ std::array<drivers::WheelEncoder, kWheels> encoders_of(const Robot& robot) noexc
           drivers::WheelEncoder(robot.drives[2], radius_m), drivers::WheelEncoder(robot.drives[3], radius_m)};
 }
 
+drivers::GroupChannels channels_of(const Robot& robot) noexcept {
+  drivers::GroupChannels channels;
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    channels[i] = drivers::standard_channels(robot, static_cast<Wheel>(i));
+  }
+  return channels;
+}
+
 }  // namespace
 
-BusListener::BusListener(const Robot& robot) noexcept : robot_(robot), encoders_(encoders_of(robot)) {}
+BusListener::BusListener(const Robot& robot) noexcept
+    : robot_(robot), channels_(channels_of(robot)), encoders_(encoders_of(robot)) {}
 
 void BusListener::on_frame(const hal::ReceivedFrame& received) noexcept {
   const hal::CanFrame& frame = received.frame;
   ++frames_;
   ++counted_frames_;
-  counted_bits_ += static_cast<std::uint64_t>(frame_bits(frame));
+  counted_bits_ += static_cast<std::uint64_t>(drivers::bits_on_wire(frame));
   if (frame.id == cob_id::kSync) {
     ++counted_syncs_;
     return;
@@ -37,6 +46,7 @@ void BusListener::on_frame(const hal::ReceivedFrame& received) noexcept {
   if (frame.id == cob_id::heartbeat(robot_.master_node_id)) {
     controller_at_ = received.at;
   }
+  take_targets(frame);
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     if (robot_.drives[i].node_id == node_id) {
       take(i, received);
@@ -46,7 +56,6 @@ void BusListener::on_frame(const hal::ReceivedFrame& received) noexcept {
 
 void BusListener::take(std::size_t wheel, const hal::ReceivedFrame& received) noexcept {
   const hal::CanFrame& frame = received.frame;
-  const DriveParameters& drive = robot_.drives[wheel];
   HeardNode& node = nodes_[wheel];
   if (const auto state = drivers::parse_heartbeat(frame)) {
     node.state = state;
@@ -59,17 +68,34 @@ void BusListener::take(std::size_t wheel, const hal::ReceivedFrame& received) no
     node.emergency = emergency;
     node.emergency_at = received.at;
     ++node.emergencies;
-  } else if (frame.id == cob_id::tpdo1(drive.node_id)) {
+  } else if (frame.id == channels_[wheel].feedback_id) {
     if (const auto status = drivers::parse_status(frame)) {
       node.status = status;
       node.status_at = received.at;
       encoders_[wheel].sample(status->position, received.at);
     }
-  } else if (frame.id == cob_id::rpdo1(drive.node_id) && frame.size == drivers::kPdoBytes) {
-    const auto bytes = std::span<const std::uint8_t>(frame.data).subspan(2);
-    const auto target = static_cast<std::int32_t>(drivers::load<std::uint32_t>(bytes));
-    node.told_radps = target / TurnMeasure::scale_of(drive).units_per_radps;
   }
+}
+
+void BusListener::take_targets(const hal::CanFrame& frame) noexcept {
+  if (robot_.pdo_layout == PdoLayout::kOwn) {
+    for (std::size_t i = 0; i < nodes_.size() && frame.size == drivers::kPdoBytes; ++i) {
+      if (frame.id == channels_[i].command_id) {
+        told(i, static_cast<std::int32_t>(drivers::load<std::uint32_t>(std::span(frame.data).subspan(2))));
+      }
+    }
+    return;
+  }
+  const auto pair = drivers::parse_target_pair(frame);
+  for (std::size_t i = 0; i < nodes_.size() && pair; ++i) {
+    if (frame.id == channels_[i].targets_id) {
+      told(i, i == drivers::first_of_pair(i) ? pair->first : pair->second);
+    }
+  }
+}
+
+void BusListener::told(std::size_t wheel, std::int32_t target) noexcept {
+  nodes_[wheel].told_radps = target / TurnMeasure::scale_of(robot_.drives[wheel]).units_per_radps;
 }
 
 void BusListener::update(Instant now) noexcept {

@@ -10,6 +10,7 @@
 #include "drivers/canopen/emcy.hpp"
 #include "drivers/canopen/nmt.hpp"
 #include "drivers/canopen/pdo.hpp"
+#include "drivers/canopen/pdo_layout.hpp"
 #include "drivers/wheel_encoder.hpp"
 #include "hal/api/can_bus.hpp"
 
@@ -22,7 +23,7 @@ struct HeardNode {
   std::uint64_t boot_ups = 0;
   std::optional<drivers::DriveStatus> status;  ///< of its TPDO1, if that is as the controller maps it
   Instant status_at{};
-  std::optional<double> told_radps;  ///< by the controller, at the wheel
+  std::optional<double> told_radps;  ///< by the controller, at the wheel, in the robot's PDO layout
   std::optional<drivers::Emergency> emergency;
   Instant emergency_at{};
   std::uint64_t emergencies = 0;
@@ -57,8 +58,11 @@ class BusListener {
 
  private:
   void take(std::size_t wheel, const hal::ReceivedFrame& received) noexcept;
+  void take_targets(const hal::CanFrame& frame) noexcept;
+  void told(std::size_t wheel, std::int32_t target) noexcept;
 
   Robot robot_;
+  drivers::GroupChannels channels_;
   std::array<HeardNode, kWheels> nodes_;
   std::array<drivers::WheelEncoder, kWheels> encoders_;
   BusTraffic traffic_;

@@ -11,6 +11,19 @@
 #include "firmware/tools/wheels/wheels_world.hpp"
 
 namespace ivo::firmware::wheels {
+namespace {
+
+// A robot file whose drive's EDS lacks something was refused when it was read.
+void say_eds(const Robot& robot) {
+  for (int wheel = 0; wheel < kWheels; ++wheel) {
+    if (const std::string& eds = robot.drives[static_cast<std::size_t>(wheel)].eds; !eds.empty()) {
+      say("checked", std::string(name_of(static_cast<Wheel>(wheel))) + ": " + eds +
+                         " has all that the controller reads and writes");
+    }
+  }
+}
+
+}  // namespace
 
 int list(const Options& options) {
   const Result<std::unique_ptr<World>> world = World::open(options);
@@ -20,6 +33,7 @@ int list(const Options& options) {
   World& the_world = *world.value();
   say("bus", the_world.description());
   say("robot", the_world.robot().name + ", " + the_world.robot_source());
+  say_eds(the_world.robot());
   stop_on_signals();
   const auto scan = std::make_unique<NodeScan>(the_world.bus(), the_world.robot(), NodeScan::everyone());
   run_scan(the_world, *scan);

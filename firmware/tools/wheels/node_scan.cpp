@@ -26,6 +26,9 @@ constexpr std::array<Reading, kScanObjects> kReadings{{{object::kDeviceType, 4},
                                                        {object::kStatusword, 2},
                                                        {object::kErrorCode, 2}}};
 
+constexpr drivers::ObjectAddress kDeviceName{0x1008, 0};
+constexpr std::size_t kAllRead = kScanObjects + 1;
+
 constexpr std::uint16_t kFunctionMask = 0x780;
 
 }  // namespace
@@ -92,7 +95,7 @@ void NodeScan::take(const hal::CanFrame& frame) noexcept {
     } else {  // whatever it says: it is there
       node.seen.answered = true;
       node.silent = false;
-      node.sdo.start_upload(kReadings[0].address, kReadings[0].bytes);
+      start(node);
     }
   }
 }
@@ -110,7 +113,7 @@ void NodeScan::ask(Instant now) noexcept {
     } else if (requests < kRequestsPerCycle && ask_first(node, static_cast<std::uint8_t>(id), now)) {
       ++requests;
     }
-    busy = busy || (node.seen.answered ? node.object < kScanObjects : !node.silent);
+    busy = busy || (node.seen.answered ? node.object < kAllRead : !node.silent);
   }
   done_ = !busy;
 }
@@ -130,18 +133,34 @@ bool NodeScan::ask_first(Node& node, std::uint8_t node_id, Instant now) noexcept
   return true;
 }
 
+void NodeScan::start(Node& node) noexcept {
+  if (node.object < kScanObjects) {
+    node.sdo.start_upload(kReadings[node.object].address, kReadings[node.object].bytes);
+  } else {
+    node.sdo.start_upload(kDeviceName);
+  }
+}
+
+void NodeScan::keep(Node& node) noexcept {
+  if (node.object < kScanObjects) {
+    node.seen.values[node.object] = node.sdo.value();
+  } else {
+    node.seen.name = NodeName(node.sdo.text());
+  }
+}
+
 void NodeScan::read_on(Node& node, Instant now) noexcept {
-  if (node.object == kScanObjects) {
+  if (node.object == kAllRead) {
     return;
   }
   const drivers::SdoStatus status = node.sdo.status();
   if (status == drivers::SdoStatus::kDone) {
-    node.seen.values[node.object] = node.sdo.value();
+    keep(node);
   }
   if (status == drivers::SdoStatus::kTimedOut) {
-    node.object = kScanObjects;  // it went away
-  } else if (status != drivers::SdoStatus::kBusy && ++node.object < kScanObjects) {
-    node.sdo.start_upload(kReadings[node.object].address, kReadings[node.object].bytes);
+    node.object = kAllRead;  // it went away
+  } else if (status != drivers::SdoStatus::kBusy && ++node.object < kAllRead) {
+    start(node);
   }
   if (const auto frame = node.sdo.poll(now)) {
     (void)bus_.send({&*frame, 1}, now);

@@ -11,11 +11,12 @@
 #include "drivers/canopen/nmt.hpp"
 #include "drivers/canopen/object_address.hpp"
 #include "drivers/canopen/sdo_client.hpp"
+#include "drivers/eds/short_string.hpp"
 #include "firmware/tools/wheels/reading_bus.hpp"
 
 namespace ivo::firmware {
 
-/// Read from each node, in this order.
+/// Numbers read from each node, in this order; then its name.
 enum class ScanObject : std::uint8_t {
   kDeviceType,  ///< 1000h
   kVendor,      ///< 1018h:1
@@ -27,12 +28,14 @@ enum class ScanObject : std::uint8_t {
   kErrorCode,   ///< 603Fh
 };
 inline constexpr std::size_t kScanObjects = 8;
+using NodeName = drivers::ShortString<drivers::SdoClient::kMostBytes>;
 
 struct ScannedNode {
   bool answered = false;                   ///< an SDO request
   bool booted = false;                     ///< a boot-up message
   std::optional<drivers::NmtState> state;  ///< by its last heartbeat
   std::array<std::optional<std::uint32_t>, kScanObjects> values{};
+  std::optional<NodeName> name;  ///< 1008h, as it came: any bytes
 
   [[nodiscard]] bool there() const noexcept { return answered || booted || state.has_value(); }
   [[nodiscard]] const std::optional<std::uint32_t>& value(ScanObject object) const noexcept {
@@ -41,7 +44,7 @@ struct ScannedNode {
 };
 
 /// Nothing waits: cycle() until done(), about 1.2 s with nodes that answer at once. A controller that is running is
-/// not disturbed: when one is heard while listening, no node is asked. About 40 KB.
+/// not disturbed: when one is heard while listening, no node is asked. About 50 KB.
 class NodeScan {
  public:
   static constexpr std::size_t kNodes = 127;
@@ -72,13 +75,15 @@ class NodeScan {
     Instant asked_at{};
     bool silent = false;
     drivers::SdoClient sdo{0};
-    std::size_t object = 0;
+    std::size_t object = 0;  ///< that is being read; kScanObjects: the name
   };
 
   void take(const hal::CanFrame& frame) noexcept;
   void listen_for_controller(std::uint16_t id) noexcept;
   void ask(Instant now) noexcept;
   [[nodiscard]] bool ask_first(Node& node, std::uint8_t node_id, Instant now) noexcept;
+  static void start(Node& node) noexcept;
+  static void keep(Node& node) noexcept;
   void read_on(Node& node, Instant now) noexcept;
 
   ReadingBus bus_;

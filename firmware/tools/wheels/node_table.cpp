@@ -14,8 +14,8 @@ namespace {
 
 using drivers::cia402::PowerState;
 
-constexpr std::array<const char*, 10> kHeading{"node",    "wheel",    "NMT",    "profile", "vendor",
-                                               "product", "revision", "serial", "modes",   "power"};
+constexpr std::array<const char*, 11> kHeading{"node",     "wheel",  "NMT",   "profile", "vendor", "product",
+                                               "revision", "serial", "modes", "power",   "name"};
 using Row = std::array<std::string, kHeading.size()>;
 
 std::string drive_text(const Robot& robot, Wheel wheel) {
@@ -39,6 +39,14 @@ std::string power_text(const ScannedNode& node) {
   return word ? std::string(name_of(drivers::cia402::power_state(static_cast<std::uint16_t>(*word)))) : "-";
 }
 
+// What a node sends goes to a terminal: nothing but what can be seen may.
+std::string name_text(const ScannedNode& node) {
+  std::string text(node.name ? node.name->view() : std::string_view());
+  std::ranges::replace_if(
+      text, [](char letter) { return letter < ' ' || letter > '~'; }, '?');
+  return text.empty() ? "-" : text;
+}
+
 Row row_of(const Robot& robot, std::uint8_t id, const ScannedNode& node) {
   const auto wheel = wheel_of(robot, id);
   const auto& type = node.value(ScanObject::kDeviceType);
@@ -52,7 +60,8 @@ Row row_of(const Robot& robot, std::uint8_t id, const ScannedNode& node) {
           hexadecimal_or_dash(node.value(ScanObject::kRevision)),
           hexadecimal_or_dash(node.value(ScanObject::kSerial)),
           modes ? modes_text(*modes) : "-",
-          power_text(node)};
+          power_text(node),
+          name_text(node)};
 }
 
 // Columns as wide as their widest text; the first flush right, for it is a number.

@@ -1,6 +1,8 @@
 // A door that lets a tool read and nothing else.
 #pragma once
 
+#include "config/base/static_vector.hpp"
+#include "config/limits.hpp"
 #include "drivers/canopen/cob_id.hpp"
 #include "drivers/canopen/sdo_frame.hpp"
 #include "hal/api/can_bus.hpp"
@@ -19,15 +21,21 @@ class ReadingBus final : public hal::CanBus {
   }
   std::size_t send(std::span<const hal::CanFrame> frames, Instant now) noexcept override {
     std::size_t taken = 0;
+    passed_.clear();
     for (const hal::CanFrame& frame : frames) {
       if (!reads(frame)) {
         ++refused_;
         continue;
       }
-      taken += inner_.send({&frame, 1}, now);
+      if (passed_.full()) {
+        taken += inner_.send(passed_.span(), now);
+        passed_.clear();
+      }
+      (void)passed_.push_back(frame);
     }
-    return taken;
+    return taken + inner_.send(passed_.span(), now);
   }
+  [[nodiscard]] std::span<const hal::CanFrame> handed_over() const noexcept override { return inner_.handed_over(); }
   [[nodiscard]] hal::BusState state() const noexcept override { return inner_.state(); }
   [[nodiscard]] hal::BusCounters counters() const noexcept override { return inner_.counters(); }
   [[nodiscard]] std::uint64_t refused() const noexcept { return refused_; }
@@ -43,6 +51,7 @@ class ReadingBus final : public hal::CanBus {
 
  private:
   hal::CanBus& inner_;
+  StaticVector<hal::CanFrame, limits::kFramesPerCycle> passed_;  // of one send
   std::uint64_t refused_ = 0;
 };
 

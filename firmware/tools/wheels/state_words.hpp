@@ -22,7 +22,7 @@ namespace ivo::firmware {
 [[nodiscard]] std::string name_of(drivers::NmtState state);
 [[nodiscard]] std::string_view name_of(drivers::cia402::PowerState state) noexcept;
 
-/// "7300h: sensor": what CiA 301 (table 26) and CiA 402-1 (table 5) say about an error code, of an emergency or 603Fh.
+/// "7300h: sensor": an error code of an emergency or of 603Fh, and drivers::emergency_class of it.
 [[nodiscard]] std::string error_code_text(std::uint16_t code);
 /// "PV CSV*": modes of 6502h, a star at the one that the controller would choose.
 [[nodiscard]] std::string modes_text(std::uint32_t supported_modes);

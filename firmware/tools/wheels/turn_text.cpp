@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "drivers/canopen/emcy_text.hpp"
 #include "drivers/drive_fault_text.hpp"
 #include "firmware/tools/terminal.hpp"
 #include "firmware/tools/wheels/state_words.hpp"
@@ -91,10 +92,7 @@ std::string measured_text(const TurnMeasure::Result& turned) {
 std::string fault_text(const drivers::DriveFault& fault) {
   std::string text = drivers::describe(fault);
   if (fault.reason == drivers::DriveFaultReason::kEmergency && fault.code != 0) {
-    const std::string words = error_code_text(static_cast<std::uint16_t>(fault.code));
-    if (const auto colon = words.find(": "); colon != std::string::npos) {
-      text += words.substr(colon);
-    }
+    text += ": " + std::string(drivers::emergency_class(static_cast<std::uint16_t>(fault.code)));
   }
   return text;
 }

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "config/rates.hpp"
+#include "drivers/canopen/emcy_text.hpp"
 #include "drivers/cia402/statusword.hpp"
 #include "firmware/tools/terminal.hpp"
 #include "firmware/tools/wheels/state_words.hpp"
@@ -120,8 +121,7 @@ void ChangeLog::update_wheel(Wheel wheel, const HeardNode& node, Instant now) {
   }
   if (node.emergencies != said.emergencies) {
     said.emergencies = node.emergencies;
-    say_(name + "emergency " + error_code_text(node.emergency->code) + " (error register " +
-         hexadecimal(node.emergency->error_register, 2) + ")");
+    say_(name + drivers::describe(drivers::EmcyEntry{.emergency = *node.emergency, .count = 1}));
   }
 }
 

@@ -73,9 +73,11 @@ TEST(EmcyText, NamesTheMostExactClass) {
   EXPECT_EQ(emergency_class(0x8130), "heartbeat or node guarding lost");
   EXPECT_EQ(emergency_class(0x8250), "RPDO timed out");
   EXPECT_EQ(emergency_class(0x8199), "communication");
-  EXPECT_EQ(emergency_class(0x2310), "current, output side");
+  EXPECT_EQ(emergency_class(0x2310), "continuous over-current, output side");
+  EXPECT_EQ(emergency_class(0x2344), "current, output side");
   EXPECT_EQ(emergency_class(0x2999), "current");
-  EXPECT_EQ(emergency_class(0x3210), "voltage inside the device, DC link");
+  EXPECT_EQ(emergency_class(0x3220), "DC link under-voltage");
+  EXPECT_EQ(emergency_class(0x3230), "voltage inside the device, DC link");
   EXPECT_EQ(emergency_class(0x42FF), "temperature");
   EXPECT_EQ(emergency_class(0x7305), "sensor");
   EXPECT_EQ(emergency_class(0x8611), "following error");

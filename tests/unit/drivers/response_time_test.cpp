@@ -20,7 +20,8 @@ constexpr std::uint32_t kMbit = 1'000'000;  // a bit is a microsecond
 
 std::map<std::uint16_t, Duration> worst_of(const BusSchedule& schedule, std::uint32_t bit_rate_bps) {
   std::map<std::uint16_t, Duration> worst;
-  for (const ResponseTime& time : response_times(schedule, bit_rate_bps).span()) {
+  const auto times = response_times(schedule, bit_rate_bps);
+  for (const ResponseTime& time : times.span()) {
     worst[time.frame.id] = time.worst.value_or(Duration::max());
   }
   return worst;

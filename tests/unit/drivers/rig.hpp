@@ -40,6 +40,7 @@ class NarrowBus final : public hal::CanBus {
     dropped_ += frames.size() - taken;
     return inner_.send(frames.first(taken), now);
   }
+  [[nodiscard]] std::span<const hal::CanFrame> handed_over() const noexcept override { return inner_.handed_over(); }
   [[nodiscard]] hal::BusState state() const noexcept override { return inner_.state(); }
   [[nodiscard]] hal::BusCounters counters() const noexcept override {
     hal::BusCounters counters = inner_.counters();

@@ -107,6 +107,16 @@ TYPED_TEST(CanBusContract, CarriesEveryIdentifierAndEverySize) {
   EXPECT_EQ(arrived, frames);
 }
 
+TYPED_TEST(CanBusContract, TellsWhatTheLastSendHandedOver) {
+  EXPECT_TRUE(this->a().handed_over().empty()) << "nothing yet";
+  const std::vector<CanFrame> frames = numbered(5);
+  EXPECT_EQ(this->a().send(frames, Instant{}), frames.size());
+  const auto handed_over = this->a().handed_over();
+  EXPECT_EQ(std::vector<CanFrame>(handed_over.begin(), handed_over.end()), frames);
+  EXPECT_EQ(this->a().send({}, Instant{}), 0U);
+  EXPECT_TRUE(this->a().handed_over().empty()) << "the last had nothing";
+}
+
 TYPED_TEST(CanBusContract, DoesNotHearItself) {
   this->a().send(numbered(3), Instant{});
   EXPECT_TRUE(all_of(this->a()).empty());

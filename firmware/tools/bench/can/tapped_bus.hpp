@@ -28,6 +28,7 @@ class TappedBus final : public hal::CanBus {
     sent_.insert(sent_.end(), frames.begin(), frames.end());
     return inner_.send(frames, now);
   }
+  [[nodiscard]] std::span<const hal::CanFrame> handed_over() const noexcept override { return inner_.handed_over(); }
   [[nodiscard]] hal::BusState state() const noexcept override { return inner_.state(); }
   [[nodiscard]] hal::BusCounters counters() const noexcept override { return inner_.counters(); }
 
@@ -59,6 +60,7 @@ class MeddledBus final : public hal::CanBus {
 
   std::size_t receive(std::span<hal::ReceivedFrame> frames, Instant now) noexcept override;
   std::size_t send(std::span<const hal::CanFrame> frames, Instant now) noexcept override;
+  [[nodiscard]] std::span<const hal::CanFrame> handed_over() const noexcept override { return inner_.handed_over(); }
   [[nodiscard]] hal::BusState state() const noexcept override { return inner_.state(); }
   [[nodiscard]] hal::BusCounters counters() const noexcept override { return inner_.counters(); }
 

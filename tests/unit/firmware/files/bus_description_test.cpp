@@ -32,7 +32,8 @@ TEST(BusDescription, HasEveryFrameOfTheScheduleWithItsSizeAndPeriod) {
   for (const PdoLayout layout : {PdoLayout::kOwn, PdoLayout::kShared}) {
     const Robot robot = robot_of(layout);
     const std::vector<BusMessage> messages = bus_messages(robot);
-    for (const drivers::PeriodicFrame& frame : drivers::schedule_of(robot).span()) {
+    const drivers::BusSchedule schedule = drivers::schedule_of(robot);
+    for (const drivers::PeriodicFrame& frame : schedule.span()) {
       const BusMessage* const message = message_at(messages, frame.id);
       ASSERT_NE(message, nullptr) << std::hex << frame.id;
       EXPECT_EQ(message->bytes, frame.bytes) << std::hex << frame.id;

@@ -26,14 +26,19 @@ class KeepingBus final : public hal::CanBus {
     ++calls;
     const std::size_t taken = std::min(frames.size(), room - sent.size());
     sent.insert(sent.end(), frames.begin(), frames.begin() + static_cast<std::ptrdiff_t>(taken));
+    last_ = taken;
     return taken;
   }
+  std::span<const CanFrame> handed_over() const noexcept override { return std::span(sent).last(last_); }
   hal::BusState state() const noexcept override { return hal::BusState::kPassive; }
   hal::BusCounters counters() const noexcept override { return {.received = 1, .sent = 2, .send_dropped = 3}; }
 
   Frames sent;
   std::size_t room = 1'000'000;
   int calls = 0;
+
+ private:
+  std::size_t last_ = 0;
 };
 
 constexpr std::array<std::uint8_t, kWheels> kNodes{1, 2, 5, 9};
@@ -302,7 +307,28 @@ TEST_F(GuardedBusTest, SendsASpanWithoutRefusalsAtOnce) {
   EXPECT_EQ(bus_.send(frames, Instant{}), 5U);
   EXPECT_EQ(inner_.calls, 1);
   EXPECT_FALSE(bus_.last_refused_id().has_value());
+}
+
+TEST_F(GuardedBusTest, CallsTheInnerBusWithNothingToSayForWhatWaitsThere) {
   EXPECT_EQ(bus_.send({}, Instant{}), 0U);
+  EXPECT_EQ(inner_.calls, 1);
+  const Frames refused{{.id = 0x7FF}, {.id = 0x100}};
+  EXPECT_EQ(bus_.send(refused, Instant{}), 0U);
+  EXPECT_EQ(inner_.calls, 2);
+  EXPECT_TRUE(inner_.sent.empty());
+}
+
+TEST_F(GuardedBusTest, TellsWhatTheInnerBusHandedOver) {
+  inner_.room = 2;
+  const Frames frames{{.id = 0x80}, {.id = 0x7FF}, command(2, 0x06, 0), command(5, 0x06, 0)};
+  EXPECT_EQ(bus_.send(frames, Instant{}), 2U);
+  EXPECT_EQ(Frames(bus_.handed_over().begin(), bus_.handed_over().end()), (Frames{frames[0], frames[2]}));
+}
+
+TEST_F(GuardedBusTest, PassesMoreFramesThanACycleHas) {
+  const Frames frames(3 * limits::kFramesPerCycle, CanFrame{.id = 0x80});
+  EXPECT_EQ(bus_.send(frames, Instant{}), frames.size());
+  EXPECT_EQ(inner_.sent, frames);
 }
 
 TEST_F(GuardedBusTest, ReportsWhatTheInnerBusTook) {

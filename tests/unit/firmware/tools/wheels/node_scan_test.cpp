@@ -8,6 +8,7 @@
 
 #include "drivers/canopen/cob_id.hpp"
 #include "drivers/cia402/objects.hpp"
+#include "drivers/eds/shipped_eds.hpp"
 #include "drivers/sim/sim_drives.hpp"
 #include "firmware/tools/wheels/node_table.hpp"
 #include "hal/sim/manual_clock.hpp"
@@ -39,9 +40,21 @@ class ScanRig {
       const std::size_t count = bus.port(3).receive(frames, clock.now());
       for (std::size_t k = 0; k < count; ++k) {
         log.push_back(frames[k].frame);
+        play_prankster(frames[k].frame);
       }
     }
     EXPECT_TRUE(scan->done());
+  }
+
+  /// Answers whatever it is asked with a command to a terminal.
+  void play_prankster(const hal::CanFrame& request) {
+    if (prankster != 0 && request.id == 0x600 + prankster && request.data[0] == 0x40) {
+      const auto& asked = request.data;
+      const hal::CanFrame answer{.id = static_cast<std::uint16_t>(0x580 + prankster),
+                                 .size = 8,
+                                 .data = {0x43, asked[1], asked[2], asked[3], 0x1B, '[', 0xFF, 'J'}};
+      bus.port(2).send({&answer, 1}, clock.now());
+    }
   }
 
   /// Frames that the scan sent.
@@ -56,6 +69,7 @@ class ScanRig {
   hal::ManualClock clock;
   drivers::SimDrives drives;
   std::optional<hal::CanFrame> stranger;  ///< sent now and then by somebody else
+  std::uint8_t prankster = 0;             ///< node-id; 0: none
   std::unique_ptr<NodeScan> scan;
   std::vector<hal::CanFrame> log;
 };
@@ -74,7 +88,9 @@ TEST(NodeScan, FindsTheFourDrivesAndWhatTheySay) {
   EXPECT_EQ(node.value(ScanObject::kVendor), 0x5AU);
   EXPECT_EQ(node.value(ScanObject::kProduct), 0x1234U);
   EXPECT_EQ(node.value(ScanObject::kModes), 0x104U);
-  EXPECT_FALSE(node.value(ScanObject::kSerial).has_value()) << "the simulated drive has none";
+  EXPECT_EQ(node.value(ScanObject::kRevision), 0x0001'0000U) << "of its EDS";
+  ASSERT_TRUE(node.name.has_value());
+  EXPECT_EQ(node.name->view(), drivers::ivo_drive_eds().text_of(*drivers::ivo_drive_eds().find({0x1008, 0})));
 }
 
 TEST(NodeScan, OnlyReads) {
@@ -145,6 +161,26 @@ TEST(NodeScan, GoesOnWhenANodeRefusesAnObject) {
   EXPECT_TRUE(rig.scan->node(2).answered) << "an abort is an answer";
 }
 
+TEST(NodeScan, GoesWithoutTheNameOfANodeThatHasNone) {
+  drivers::SimDrives::Scripts scripts;
+  scripts[0].refusal = {{0x1008, 0}, drivers::SdoAbort::kNoObject};
+  ScanRig rig(Robot{}, scripts);
+  rig.run();
+  EXPECT_FALSE(rig.scan->node(1).name.has_value());
+  EXPECT_TRUE(rig.scan->node(2).name.has_value());
+}
+
+TEST(NodeTable, ShowsOfANameWhatCanBeSeenAndNothingThatMovesTheCursor) {
+  ScanRig rig;
+  rig.prankster = 40;
+  rig.run();
+  ASSERT_TRUE(rig.scan->node(40).name.has_value());
+  EXPECT_EQ(rig.scan->node(40).name->view(), "\x1b[\xFFJ") << "as it came";
+  const wheels::NodeTable table = wheels::node_table(*rig.scan, rig.robot);
+  ASSERT_EQ(table.rows.size(), 6U);
+  EXPECT_TRUE(table.rows[5].ends_with("  ?[?J")) << table.rows[5];
+}
+
 TEST(NodeTable, SaysThatAllIsWell) {
   ScanRig rig;
   rig.run();
@@ -184,7 +220,7 @@ TEST(NodeTable, SaysWhatADriveInFaultHas) {
   ScanRig rig(Robot{}, scripts);
   rig.run();
   EXPECT_EQ(wheels::fault_text(*rig.scan, rig.robot, Wheel::kRearLeft),
-            "node 3 (rear left): in fault (statusword 0218h), error 7300h: sensor: encoder or its cable");
+            "node 3 (rear left): in fault (statusword 1218h), error 7300h: sensor");
   EXPECT_FALSE(wheels::fault_text(*rig.scan, rig.robot, Wheel::kFrontLeft).has_value());
 }
 
