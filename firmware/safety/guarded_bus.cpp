@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "config/base/contract.hpp"
-
 namespace ivo::firmware {
 
 std::size_t GuardedBus::receive(std::span<hal::ReceivedFrame> frames, Instant now) noexcept {
@@ -14,7 +12,14 @@ std::size_t GuardedBus::receive(std::span<hal::ReceivedFrame> frames, Instant no
 }
 
 std::size_t GuardedBus::send(std::span<const hal::CanFrame> frames, Instant now) noexcept {
-  IVO_CONTRACT(frames.size() <= passing_.size());
+  std::size_t taken = 0;
+  for (; frames.size() > passing_.size(); frames = frames.subspan(passing_.size())) {
+    taken += send_part(frames.first(passing_.size()), now);
+  }
+  return taken + send_part(frames, now);
+}
+
+std::size_t GuardedBus::send_part(std::span<const hal::CanFrame> frames, Instant now) noexcept {
   // Four wheels move together or not at all: one that may not keeps the others from it.
   std::size_t passed = 0;
   bool motion_refused = false;

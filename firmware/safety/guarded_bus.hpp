@@ -33,8 +33,8 @@ class GuardedBus final : public hal::CanBus {
 
   std::size_t receive(std::span<hal::ReceivedFrame> frames, Instant now) noexcept override;
 
-  /// How many of the frames the inner bus took; refused ones are not among them. Cost: a copy of those that pass. Of
-  /// more than limits::kFramesPerCycle frames handed_over() tells the last part.
+  /// How many of the frames the inner bus took; refused ones are not among them. More than
+  /// limits::kFramesPerCycle are several calls of the inner bus. Cost: a copy of those that pass.
   std::size_t send(std::span<const hal::CanFrame> frames, Instant now) noexcept override;
 
   [[nodiscard]] std::span<const hal::CanFrame> handed_over() const noexcept override { return inner_.handed_over(); }
@@ -47,6 +47,7 @@ class GuardedBus final : public hal::CanBus {
   [[nodiscard]] std::optional<std::uint16_t> last_refused_id() const noexcept { return last_refused_id_; }
 
  private:
+  std::size_t send_part(std::span<const hal::CanFrame> frames, Instant now) noexcept;
   [[nodiscard]] FrameRefusal judge(const hal::CanFrame& frame, MotionWays moved) noexcept;
   void refuse(const hal::CanFrame& frame, FrameRefusal refusal) noexcept;
 

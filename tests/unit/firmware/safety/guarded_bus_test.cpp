@@ -325,6 +325,15 @@ TEST_F(GuardedBusTest, TellsWhatTheInnerBusHandedOver) {
   EXPECT_EQ(Frames(bus_.handed_over().begin(), bus_.handed_over().end()), (Frames{frames[0], frames[2]}));
 }
 
+TEST_F(GuardedBusTest, LetsNoWheelMoveWhenAnotherOfTheSameSpanMayNot) {
+  bus_.permit_motion(true);
+  const Frames frames{{.id = 0x80}, command(1, 0x0F, 5), command(2, 0x0F, 1'000'000'000), command(5, 0x02, 0)};
+  EXPECT_EQ(bus_.send(frames, Instant{}), 2U);
+  EXPECT_EQ(inner_.sent, (Frames{frames[0], frames[3]})) << "what stops passes";
+  EXPECT_EQ(bus_.refused(FrameRefusal::kNotWithTheOthers), 1U);
+  EXPECT_EQ(bus_.refused(FrameRefusal::kTargetTooHigh), 1U);
+}
+
 TEST_F(GuardedBusTest, PassesMoreFramesThanACycleHas) {
   const Frames frames(3 * limits::kFramesPerCycle, CanFrame{.id = 0x80});
   EXPECT_EQ(bus_.send(frames, Instant{}), frames.size());
