@@ -68,7 +68,7 @@ std::vector<FaultRow> faults_at_start() {
           "drive 3 (rear left) failed at \"device type 1000h\": *",
           [](FaultRig& rig) { answers(rig, [](hal::CanFrame& frame) { frame.data[0] = 0xE0; }); }, no_meddling),
       at_start(
-          16, "SDO segments have the wrong toggle bit", "drive 3 answers so",
+          16, "SDO segments have the wrong toggle bit", "toggle bit of 583h inverted",
           "drive 3 (rear left) failed at \"*\": SDO abort 05030000h, *",
           [](FaultRig& rig) {
             (void)victim(rig).events.push_back({.fault = drivers::SimFault::kSdoSegmented});

@@ -139,7 +139,7 @@ std::vector<FaultRow> faults_of_bus() {
        .mend = add_interface},
       {.number = 7,
        .name = "the receive queue overflows",
-       .by = "a queue of 60 frames, 150 of 084h once by a third socket",
+       .by = "150 of 084h at once, room for 60",
        .says = "* frames were lost on the way in: the receive queue overflowed",
        .detected_within = 2 * kAtOnce,
        .provoke = [](FaultRig& rig) { burst(rig, 150); },

@@ -100,7 +100,8 @@ std::vector<FaultRow> faults_of_drives() {
        .provoke = [](FaultRig& rig) { rig.each_cycle(keep_failing); },
        .recovers = false,
        .detected =
-           [](FaultRig& rig) { return rig.status().drive_fault.reason == drivers::DriveFaultReason::kResetLimit; }},
+           [](FaultRig& rig) { return rig.status().drive_fault.reason == drivers::DriveFaultReason::kResetLimit; },
+       .rest_within = 500ms},
       {.number = 20,
        .name = "STO opens while driving",
        .by = "STO of drive 3 opens",

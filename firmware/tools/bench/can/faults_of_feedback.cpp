@@ -212,13 +212,13 @@ std::vector<FaultRow> faults_of_feedback() {
        .says = "no fault",
        .provoke = send_what_is_no_data_frame},
       {.number = 27,
-       .name = "all four wheels slip by 0.1 m/s, as no body can move",
-       .by = "positions in 181h to 184h run ahead",
+       .name = "wheels slip as no body can move, none enough to stand out",
+       .by = "positions in 181h to 184h drift",
        .says = "wheels slip: * mm/s that no motion of the base explains",
        .detected_within = 500ms,
        .provoke =
            [](FaultRig& rig) {
-             slip(rig, {100.0, 100.0, -100.0, -100.0});
+             slip(rig, {-70.0, -240.0, 50.0, 70.0});
            },
        .mend = no_meddling},
       {.number = 27,
