@@ -70,7 +70,7 @@ class ShadowModel {
         certain("another master");
       } else if (function == 0x080 && (frame.size != 8 || frame.data[0] != 0 || frame.data[1] != 0)) {
         certain("emergency");
-      } else if (shadow::is_tpdo(function) && frame.size == 6) {
+      } else if (function == shadow::kFeedback && frame.size == 6) {
         drives_[i].statusword = shadow::word_in(frame);
         drives_[i].feedback_at = now_;
       } else if (function == 0x700 && frame.size == 1) {
