@@ -17,7 +17,6 @@ namespace {
 
 static_assert(kFilterIds == CAN_RAW_FILTER_MAX);
 
-constexpr int kReceiveBufferBytes = 1 << 20;  // about 2,700 frames: 300 ms of a saturated 1 Mbit/s bus
 constexpr int kPriority = 6;                  // the first band of a pfifo_fast queue, without privileges
 
 // Without the two flags in the mask, extended and remote frames with the same low bits pass too.
@@ -77,8 +76,8 @@ bool set_up(int fd, int index, const CanSocketOptions& options) {
   address.can_family = AF_CAN;
   address.can_ifindex = index;
   set_option(fd, SOL_SOCKET, SO_PRIORITY, kPriority);
-  if (!set_option(fd, SOL_SOCKET, SO_RCVBUFFORCE, kReceiveBufferBytes)) {
-    set_option(fd, SOL_SOCKET, SO_RCVBUF, kReceiveBufferBytes);
+  if (!set_option(fd, SOL_SOCKET, SO_RCVBUFFORCE, options.receive_bytes)) {
+    set_option(fd, SOL_SOCKET, SO_RCVBUF, options.receive_bytes);
   }
   return setsockopt(fd, SOL_CAN_RAW, CAN_RAW_FILTER, filters.data(),
                     static_cast<socklen_t>(filters.size() * sizeof(can_filter))) == 0 &&

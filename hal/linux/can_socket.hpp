@@ -14,6 +14,7 @@ namespace ivo::hal {
 struct CanSocketOptions {
   std::vector<std::uint16_t> ids;  ///< heard, each by a filter of its own; none: every plain 11-bit data frame
   bool hear_own = true;            ///< frames that this socket sends come back when they leave
+  int receive_bytes = 1 << 20;     ///< kernel's queue: of 1 MiB about 2,700 frames, 300 ms of a saturated 1 Mbit/s bus
 };
 
 struct CanSocket {

@@ -70,7 +70,8 @@ struct SocketCanBus::State {
 };
 
 Result<SocketCanBus> SocketCanBus::open(const std::string& name, const Options& options) {
-  const CanSocketOptions wanted{.ids = {options.ids.begin(), options.ids.end()}, .hear_own = options.confirm};
+  CanSocketOptions wanted{.ids = {options.ids.begin(), options.ids.end()}, .hear_own = options.confirm};
+  wanted.receive_bytes = options.receive_bytes > 0 ? options.receive_bytes : wanted.receive_bytes;
   Result<CanSocket> opened = open_can_socket(name, wanted);
   if (!opened) {
     return opened.error();

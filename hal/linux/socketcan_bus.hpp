@@ -37,6 +37,8 @@ class SocketCanBus final : public CanBus {
     /// False: frames count as confirmed when handed over, and two of one COB-ID may queue, as answers of a simulated
     /// drive.
     bool confirm = true;
+    /// Of the kernel's queue of arrivals, about 770 a frame and half of it overhead; 0: room for 300 ms.
+    int receive_bytes = 0;
   };
 
   /// What is counted beside BusCounters.

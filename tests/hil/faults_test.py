@@ -22,6 +22,7 @@ SIMULATED = "simulated time, in lock step"
 STOPS = {"detected", "told to stop", "at rest", "moved unasked", "moves again", "says"}
 NO_START = {"moved unasked", "moves again", "says"}
 GOES_ON = {"goes on", "says"}
+AT_1_KHZ = {1, 2, 4, 5, 20, 22, 28}  # with shared RPDOs too
 HARMLESS = {  # everything else stops the robot, or is found before it moves
     "5 the transmit queue is full for three cycles",
     "8 four feedbacks of a drive in a row are lost, once",
@@ -33,6 +34,7 @@ HARMLESS = {  # everything else stops the robot, or is found before it moves
 }
 FOUND_BY_START_UP = {16, 17, 18, 20}
 ELSEWHERE = {23}  # killed and stopped processes: tests/rt, on a real-time kernel
+CLOCK_STEP = 24  # provoked where the clock is a guest's own: in a network namespace it is the host's, and not ours to set
 LASTING = {"19 a fault that comes back after each reset"}  # to be mended, not cleared
 
 
@@ -52,13 +54,17 @@ class Faults(unittest.TestCase):
         cls.cases = {}
         for record in cls.records:
             cls.cases.setdefault(record["case"], {})[record["figure"]] = record
+        which = subprocess.run(
+            [os.path.join(SOURCE_DIR, "toolchain", "vcan"), "--which"], capture_output=True, text=True, check=True
+        )
+        cls.skipped = ELSEWHERE | ({CLOCK_STEP} if which.stdout.strip() == "netns" else set())
         cls.faults = {name: figures for name, figures in cls.cases.items() if re.match(r"\d+ ", name)}
 
     def numbers(self, names):
         return {int(name.split()[0]) for name in names}
 
     def provoked(self):
-        return {name: figures for name, figures in self.faults.items() if not self.numbers([name]) & ELSEWHERE}
+        return {name: figures for name, figures in self.faults.items() if not self.numbers([name]) & self.skipped}
 
     def test_the_records_are_as_the_schema_says(self):
         self.assertEqual(self.schema_faults, [])
@@ -66,9 +72,21 @@ class Faults(unittest.TestCase):
     def test_all_28_faults_are_there(self):
         self.assertEqual(self.numbers(self.faults), set(range(1, 29)))
 
-    def test_none_is_skipped_but_those_of_real_time(self):
+    def test_none_is_skipped_but_those_of_real_time_and_of_the_hosts_clock(self):
         skipped = [name for name, figures in self.faults.items() if any(f.startswith("skipped") for f in figures)]
-        self.assertEqual(self.numbers(skipped), ELSEWHERE, skipped)
+        self.assertEqual(self.numbers(skipped), self.skipped, skipped)
+
+    def test_the_shared_layout_at_1_khz_is_tried_too(self):
+        self.assertEqual(self.numbers(name for name in self.faults if name.endswith(", 1 kHz")), AT_1_KHZ)
+
+    def test_the_table_for_people_has_every_fault_and_a_sum(self):
+        rows = len(self.faults)
+        skipped = len(self.skipped)
+        self.assertRegex(self.done.stdout, rf"(?m)^{rows} rows of 28 faults: {rows - skipped} hold, 0 missed, {skipped} skipped; ")
+        for name, figures in self.provoked().items():
+            with self.subTest(name):
+                number, what = name.split(" ", 1)
+                self.assertRegex(self.done.stdout, rf"(?m)^ *{number}  {re.escape(what)}  +{re.escape(figures['provoked by']['text'])}  ")
 
     def test_each_has_all_its_figures(self):
         for name, figures in self.provoked().items():

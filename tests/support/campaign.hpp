@@ -2,14 +2,18 @@
 // shadow model watches every frame. The same seed gives the same life.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <map>
 #include <optional>
 #include <random>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "drivers/drive_fault.hpp"
 #include "firmware/loop/control_loop.hpp"
+#include "hal/sim/digital_inputs.hpp"
 #include "tests/support/rough_bus.hpp"
 #include "tests/support/search_rig.hpp"
 #include "tests/support/shadow_model.hpp"
@@ -53,6 +57,7 @@ class Campaign {
           fault_every_(100U << chance(5)),
           consent_every_(10U << chance(4)) {
       SearchRig::Options options{.object = std::nullopt, .generations = 1, .fault_waits = true};
+      options.inputs = &inputs_;
       options.between = [this](hal::CanBus& port) -> hal::CanBus& {
         rough_.emplace(port, random_);
         shadowed_.emplace(*rough_, shadow_);
@@ -92,6 +97,7 @@ class Campaign {
       }
       ShadowModel::Outside outside;
       press_buttons(outside);
+      press_inputs(outside);
       if (late_ > 0) {
         rig_->be_late(late_);
       }
@@ -129,11 +135,69 @@ class Campaign {
       }
     }
 
+    // A tap is over before anybody looks; what is pressed, or silent, is so until recover().
+    void press_inputs(ShadowModel::Outside& outside) {
+      const bool tapped = chance(20 * fault_every_) == 0;
+      if (tapped) {
+        inputs_.tap(chance(2));
+      }
+      const bool silent = silent_since_ && rig_->now() - *silent_since_ > rates::kInputsAge;
+      outside.stop_input = tapped || pressed_ || silent;
+    }
+
+    void touch_inputs() {
+      pressed_ = chance(2) == 0;
+      if (pressed_) {
+        inputs_.press(chance(2));
+      } else if (!silent_since_) {
+        inputs_.fall_silent(rig_->now());
+        silent_since_ = rig_->now();
+      }
+    }
+
+    void leave_inputs() {
+      inputs_.release(0);
+      inputs_.release(1);
+      inputs_.resume();
+      pressed_ = false;
+      silent_since_.reset();
+    }
+
+    // Of a wheel, of its power and of what its drive tells of them; ended by recover().
+    void begin_event(drivers::SimDrive& drive) {
+      using drivers::SimFault;
+      constexpr std::array<SimFault, 11> kFaults = {
+          SimFault::kEncoderStuck, SimFault::kBlocked,       SimFault::kSlip,          SimFault::kStoOpen,
+          SimFault::kNotEnabling,  SimFault::kFaultAgain,    SimFault::kStuckTpdo,     SimFault::kLateTpdo,
+          SimFault::kShortTpdo,    SimFault::kDuplicateTpdo, SimFault::kEmergencyStorm};
+      auto& events = drive.script().events;
+      if (std::ranges::all_of(events, &drivers::SimEvent::done)) {
+        events.clear();
+      }
+      if (events.size() + 2 <= drivers::SimScript::kEvents) {
+        const SimFault fault = kFaults[chance(kFaults.size())];
+        const std::uint32_t value = fault == SimFault::kEmergencyStorm ? 0x8400
+                                    : fault == SimFault::kShortTpdo    ? 1 + chance(5)
+                                                                       : 1 + chance(1000);
+        (void)events.push_back({.at = rig_->now(), .fault = fault, .on = true, .value = value});
+        begun_.emplace_back(&drive, fault);
+      }
+    }
+
+    void end_events() {
+      for (const auto& [drive, fault] : begun_) {
+        (void)drive->script().events.push_back({.at = rig_->now(), .fault = fault, .on = false});
+      }
+      begun_.clear();
+    }
+
     // What went wrong ends after a while.
     void recover() {
       if (wrong_until_ && rig_->now() >= *wrong_until_) {
         wrong_until_.reset();
         others_command_ = false;
+        leave_inputs();
+        end_events();
         rough_->roughness = {};
         rig_->bus().set_state(0, hal::BusState::kActive);
         for (int i = 0; i < kWheels; ++i) {
@@ -148,7 +212,7 @@ class Campaign {
     void go_wrong() {
       wrong_until_ = rig_->now() + std::chrono::milliseconds(2 << chance(10));
       drivers::SimDrive& drive = rig_->drives().drive(any_wheel());
-      const unsigned which = chance(18);
+      const unsigned which = chance(22);
       switch (which) {
         case 0:
           drive.script().silent_from = rig_->now();
@@ -189,6 +253,14 @@ class Campaign {
         case 12:
           flood();
           break;
+        case 13:
+          touch_inputs();
+          break;
+        case 14:
+        case 15:
+        case 16:
+          begin_event(drive);
+          break;
         default:
           inject(which);
           break;
@@ -222,10 +294,14 @@ class Campaign {
     std::mt19937_64& random_;
     unsigned fault_every_;
     unsigned consent_every_;
+    hal::SimDigitalInputs inputs_;
     std::optional<RoughBus> rough_;
     std::optional<ShadowedBus> shadowed_;
     std::optional<SearchRig> rig_;
     std::optional<Instant> wrong_until_;
+    std::vector<std::pair<drivers::SimDrive*, drivers::SimFault>> begun_;
+    bool pressed_ = false;
+    std::optional<Instant> silent_since_;
     bool others_command_ = false;
     bool faulty_ = false;
     int stuck_ = 0;  // cycles in one fault

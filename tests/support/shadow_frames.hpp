@@ -39,8 +39,8 @@ namespace shadow {
 
 constexpr Duration ms(int count) { return std::chrono::milliseconds(count); }
 
-// Any of a drive's four PDOs: one that cannot be mapped anew is used as it is.
-constexpr bool is_tpdo(int function) { return function >= 0x180 && function <= 0x480 && function % 0x100 == 0x80; }
+constexpr int kFeedback = 0x180;  // these drives are mapped anew, to TPDO1: what has the id of another says nothing
+/// Any of four: what turns a wheel may not come from anybody else by any of them.
 constexpr bool is_rpdo(int function) { return function >= 0x200 && function <= 0x500 && function % 0x100 == 0; }
 
 /// Statusword or controlword of a PDO.

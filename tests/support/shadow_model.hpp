@@ -32,6 +32,7 @@ class ShadowModel {
     bool clear = false;
     bool bus_lost = false;
     std::uint64_t receive_dropped = 0;  ///< in all
+    bool stop_input = false;            ///< emergency stop or bumper pressed, tapped since the last cycle, or not read
     bool wheels_turn = false;           ///< in truth
     bool moved_by_others = false;       ///< another master commanded the drives since the last fault
   };
@@ -69,7 +70,7 @@ class ShadowModel {
         certain("another master");
       } else if (function == 0x080 && (frame.size != 8 || frame.data[0] != 0 || frame.data[1] != 0)) {
         certain("emergency");
-      } else if (shadow::is_tpdo(function) && frame.size == 6) {
+      } else if (function == shadow::kFeedback && frame.size == 6) {
         drives_[i].statusword = shadow::word_in(frame);
         drives_[i].feedback_at = now_;
       } else if (function == 0x700 && frame.size == 1) {
@@ -151,6 +152,10 @@ class ShadowModel {
       certain("frames lost");
     }
     dropped_ = outside.receive_dropped;
+    stop_input_ = outside.stop_input;
+    if (stop_input_ && (mode_ == Mode::kSearching || mode_ == Mode::kStopping)) {
+      certain("stop input");
+    }
     if (outside.skipped >= 5 && (mode_ == Mode::kSearching || mode_ == Mode::kStopping)) {
       certain("late");
     }
@@ -255,6 +260,7 @@ class ShadowModel {
     const bool all_enabled = std::all_of(drives_.begin(), drives_.end(), enabled);
     expect(!moving || consented_, "motion without consent since the last fault");
     expect(!moving || certain_.empty(), "motion in the cycle of a fault");
+    expect(!moving || !stop_input_, "motion while a stop input is pressed");
     expect(batch.enabling == 0 || batch.enabling == kWheels, "power for some of four");
     expect(batch.targets == 0 || all_enabled, "a target before all four hold speed");
     expect(batch.commands == 0 || batch.commands == kWheels, "commands for some of four");
@@ -278,6 +284,7 @@ class ShadowModel {
   bool consented_ = false;
   std::optional<Instant> last_clear_;
   std::optional<Instant> stopped_at_;
+  bool stop_input_ = false;
   int unsent_ = 0;  // batches in a row that were not taken whole
   bool wrote_ = false;
   std::uint64_t dropped_ = 0;

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "config/base/contract.hpp"
+#include "firmware/tools/bench/can/fault_report.hpp"
 
 namespace ivo::firmware::bench {
 namespace {
@@ -15,7 +16,8 @@ constexpr std::array<Bench, 6> kBenches = {{
     {"quality", "the fast profile's expected time after 0.1, 1 and 10 s, beside the bound", quality},
     {"compare", "four other planners on the same scenes in the same time", compare},
     {"scale", "the cost of a generation from 100 nodes up, and real maps and priors", scale},
-    {"can", "the wheel bus: its cost, its load, and each of 28 faults provoked on a kernel's own bus", can},
+    {"can", "the wheel bus: its cost, its load, and each of 28 faults provoked on a kernel's own bus", can,
+     table_with_faults},
 }};
 
 double worst_of(const std::vector<double>& values, Sense good) {

@@ -71,6 +71,8 @@ struct Bench {
   const char* name;
   const char* about;  ///< one line
   void (*run)(const Options& options, Sheet& sheet);
+  /// Its records for people, where they are more than a table of figures (bench_report.hpp); none: table_of.
+  std::string (*table)(std::span<const Record> records) = nullptr;
 };
 
 /// In the order in which `ivo bench all` runs them.

@@ -21,7 +21,8 @@ void run_one(const Bench& bench, const Options& options, std::vector<Record>& re
   Sheet sheet(bench.name);
   bench.run(options, sheet);
   const double taken_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  (void)std::printf("%s(%.0f s)\n\n", table_of(sheet.records()).c_str(), taken_s);
+  (void)std::printf("%s(%.0f s)\n\n", (bench.table != nullptr ? bench.table : table_of)(sheet.records()).c_str(),
+                    taken_s);
   (void)std::fflush(stdout);
   records.insert(records.end(), sheet.records().begin(), sheet.records().end());
 }

@@ -22,6 +22,18 @@ constexpr double kSpeed_mps = 0.5;
 constexpr int kGenerations = 2;
 constexpr std::uint32_t kVendorId = 0xAA;  // of all four, and looked at
 
+Robot robot_with(PdoLayout layout) {
+  Robot robot;
+  for (DriveParameters& drive : robot.drives) {
+    drive.vendor_id = kVendorId;
+  }
+  robot.pdo_layout = layout;
+  robot.cycle = layout == PdoLayout::kShared ? rates::kShortestCycle : rates::kCycle;
+  robot.inputs.emergency_stop = InputLine{.line = 0};
+  robot.inputs.bumpers[0] = InputLine{.line = 1};
+  return robot;
+}
+
 /// Prepares the program's planner; the plan is of no matter as long as it is long.
 Result<LoopSetup> prepare_search(const Robot& robot) {
   static const Scene scene = [] {
@@ -63,12 +75,10 @@ Result<std::unique_ptr<FaultRig>> FaultRig::make(const Options& options) {
       }
     }
   }
-  Robot robot;
-  for (DriveParameters& drive : robot.drives) {
-    drive.vendor_id = kVendorId;
-  }
+  const Robot robot = robot_with(options.layout);
   const drivers::BusIds heard = drivers::bus_ids(robot);
-  Result<hal::SocketCanBus> master = hal::SocketCanBus::open(kMasterSide, {.ids = heard.span()});
+  Result<hal::SocketCanBus> master =
+      hal::SocketCanBus::open(kMasterSide, {.ids = heard.span(), .receive_bytes = options.receive_bytes});
   Result<hal::SocketCanBus> drives =
       hal::SocketCanBus::open(options.gateway ? kOtherSide : kMasterSide, {.confirm = false});
   Result<Injector> injector = Injector::open(kMasterSide);
@@ -77,12 +87,13 @@ Result<std::unique_ptr<FaultRig>> FaultRig::make(const Options& options) {
     return !master ? master.error() : !drives ? drives.error() : !injector ? injector.error() : delivery.error();
   }
   stay_on_one_cpu();
-  const Result<LoopSetup> setup = prepare_search(robot);
+  Result<LoopSetup> setup = prepare_search(robot);
   if (!setup) {
     return setup.error();
   }
   std::unique_ptr<FaultRig> rig(new FaultRig(options, robot, std::move(master).value(), std::move(drives).value(),
                                              std::move(injector).value(), std::move(delivery).value()));
+  setup.value().inputs = &rig->inputs_;
   rig->loop_ = std::make_unique<ControlLoop>(setup.value(), the_planner(), rig->tap_);
   return rig;
 }
@@ -145,7 +156,7 @@ void FaultRig::pass_period() {
   deliver();
   drives_->update(now_);
   deliver();
-  now_ += rates::kCycle;
+  now_ += robot_.cycle;
   master_.look_at_interface();  // as a watch beside the loop does
   drives_bus_.look_at_interface();
 }
@@ -178,7 +189,7 @@ bool FaultRig::drive_at_speed() {
   Duration fast{};
   return run_until(
       [&fast](FaultRig& rig) {
-        fast = rig.rim_speed_mps() >= 0.9 * kSpeed_mps ? fast + rates::kCycle : Duration::zero();
+        fast = rig.rim_speed_mps() >= 0.9 * kSpeed_mps ? fast + rig.robot().cycle : Duration::zero();
         return fast >= 200ms;
       },
       20s);

@@ -1,5 +1,5 @@
 // The real control loop on the real bus of a kernel, with four simulated drives on a second socket and an injector on a
-// third, in lock step: a cycle of the loop, then the drives answer, then 2 ms have passed. Time is simulated; the
+// third, in lock step: a cycle of the loop, then the drives answer, then a period has passed. Time is simulated; the
 // host's clock is not looked at.
 #pragma once
 
@@ -17,6 +17,7 @@
 #include "firmware/tools/bench/can/tapped_bus.hpp"
 #include "firmware/tools/bench/scenes.hpp"
 #include "hal/linux/socketcan_bus.hpp"
+#include "hal/sim/digital_inputs.hpp"
 
 namespace ivo::firmware::bench {
 
@@ -34,6 +35,9 @@ class FaultRig {
     /// The drives are on vcan1, and cangw carries every frame over: what changes frames on the way is the kernel. The
     /// feedback of drive 3, 183h, has a rule of its own.
     bool gateway = false;
+    /// kShared: at 1 kHz.
+    PdoLayout layout = PdoLayout::kOwn;
+    int receive_bytes = 0;  ///< of the loop's queue (SocketCanBus::Options)
   };
 
   /// The interfaces are as toolchain/vcan makes them; what an earlier rig left on them is undone.
@@ -63,7 +67,9 @@ class FaultRig {
   drivers::SimDrives& drives() { return *drives_; }
   drivers::SimDrive& drive(Wheel wheel) { return drives_->drive(wheel); }
   Injector& injector() { return injector_; }
-  /// The drives answer, and 2 ms have passed: the end of a cycle, also of one without a loop.
+  /// Emergency stop and one bumper.
+  hal::SimDigitalInputs& inputs() { return inputs_; }
+  /// The drives answer, and a period has passed: the end of a cycle, also of one without a loop.
   void pass_period();
   /// The bus that the loop is given.
   TappedBus& tap() noexcept { return tap_; }
@@ -107,6 +113,7 @@ class FaultRig {
   Injector injector_;
   Delivery delivery_;
   std::optional<drivers::SimDrives> drives_;
+  hal::SimDigitalInputs inputs_;
   std::unique_ptr<ControlLoop> loop_;
   std::function<void(FaultRig&)> each_cycle_;
   std::vector<std::vector<std::string>> undo_;

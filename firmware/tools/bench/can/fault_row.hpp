@@ -24,6 +24,7 @@ struct FaultFigures;
 struct FaultRow {
   int number = 0;    ///< 1 to 28: of the list of bus faults
   std::string name;  ///< what happens; of the rows of one number each its own
+  std::string by;    ///< what provokes it, in a few words
   Outcome outcome = Outcome::kStops;
   std::string says;            ///< describe(status.drive_fault), whole; empty with kGoesOn
   Duration detected_within{};  ///< of simulated time, from the provocation; not for kGoesOn and kNoStart
@@ -33,6 +34,9 @@ struct FaultRow {
   bool recovers = true;       ///< moves again once mended, cleared and agreed to
   bool loses_frames = false;  ///< on the way in, and they are to be counted
   bool gateway = false;       ///< with cangw between loop and drives
+  bool also_at_1khz = false;  ///< a second row: the shared layout at 1 kHz
+  PdoLayout layout = PdoLayout::kOwn;
+  int receive_bytes = 0;                            ///< of the loop's queue of arrivals; 0: as always
   std::function<bool(FaultRig&)> detected{};        ///< instead of the loop's mode being fault
   Duration rest_within{};                           ///< from the provocation, instead of the quick stop's ramp; 0: that
   std::function<Result<FaultFigures>()> instead{};  ///< tried in this way, of its own
@@ -48,5 +52,6 @@ struct FaultRow {
 [[nodiscard]] std::vector<FaultRow> faults_of_others();
 [[nodiscard]] std::vector<FaultRow> faults_at_start();
 [[nodiscard]] std::vector<FaultRow> faults_of_loop();
+[[nodiscard]] std::vector<FaultRow> faults_of_inputs();
 
 }  // namespace ivo::firmware::bench

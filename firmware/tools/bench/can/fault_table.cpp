@@ -37,6 +37,7 @@ void add_row(Sheet& sheet, const FaultRow& row) {
     return sheet.skip(name, tried.error().message);
   }
   const FaultFigures& figures = tried.value();
+  sheet.add_text(name, "provoked by", row.by, true);
   if (row.outcome == Outcome::kStops || row.outcome == Outcome::kStopsBus) {
     add_stop(sheet, name, row, figures);
   }
@@ -60,10 +61,15 @@ void add_row(Sheet& sheet, const FaultRow& row) {
 
 std::vector<FaultRow> fault_rows() {
   std::vector<FaultRow> all;
-  for (const auto& group :
-       {faults_of_drives, faults_of_feedback, faults_of_bus, faults_of_others, faults_at_start, faults_of_loop}) {
+  for (const auto& group : {faults_of_drives, faults_of_feedback, faults_of_bus, faults_of_others, faults_at_start,
+                            faults_of_loop, faults_of_inputs}) {
     for (FaultRow& row : group()) {
-      all.push_back(std::move(row));
+      all.push_back(row);
+      if (row.also_at_1khz) {
+        row.name += ", 1 kHz";
+        row.layout = PdoLayout::kShared;
+        all.push_back(std::move(row));
+      }
     }
   }
   std::stable_sort(all.begin(), all.end(), [](const FaultRow& a, const FaultRow& b) { return a.number < b.number; });

@@ -30,23 +30,21 @@ bool moves(const hal::CanFrame& rpdo) {
   return target || (word & 0x8F) == 0x0F;
 }
 
-/// Commands in the last cycle: how many of four, and how many of them that can move a wheel.
-struct Commands {
-  int all = 0;
-  int moving = 0;
-};
+/// RPDO2 of two drives that share their targets.
+bool turns(const hal::CanFrame& rpdo) {
+  return std::any_of(rpdo.data.begin(), rpdo.data.end(), [](std::uint8_t byte) { return byte != 0; });
+}
 
-Commands commands_in(FaultRig& rig) {
-  Commands commands;
+/// Commands in the last cycle that can move a wheel.
+int moving_commands(FaultRig& rig) {
+  int moving = 0;
   for (const hal::CanFrame& frame : rig.sent()) {
     for (const DriveParameters& drive : rig.robot().drives) {
-      if (frame.id == drivers::cob_id::rpdo1(drive.node_id)) {
-        ++commands.all;
-        commands.moving += moves(frame) ? 1 : 0;
-      }
+      moving += frame.id == drivers::cob_id::rpdo1(drive.node_id) && moves(frame) ? 1 : 0;
+      moving += frame.id == drivers::cob_id::rpdo(2, drive.node_id) && turns(frame) ? 1 : 0;
     }
   }
-  return commands;
+  return moving;
 }
 
 class Trial {
@@ -87,7 +85,7 @@ class Trial {
     if (row_.rest_within > Duration::zero()) {
       return ms_of(row_.rest_within);
     }
-    return ms_of(told + kCyclesToAct * rates::kCycle) + fastest_mps_ / rig_.robot().limits.quick_stop_mps2 * 1e3;
+    return ms_of(told + kCyclesToAct * rig_.robot().cycle) + fastest_mps_ / rig_.robot().limits.quick_stop_mps2 * 1e3;
   }
 
   bool detected() { return row_.detected ? row_.detected(rig_) : rig_.status().mode == Mode::kFault; }
@@ -121,10 +119,10 @@ class Trial {
         [&](FaultRig& rig) {
           fastest_mps_ = std::max(fastest_mps_, rig.rim_speed_mps());
           if (!figures_.detected_ms && detected()) {
-            figures_.detected_ms = since_provoked_ms() - ms_of(rates::kCycle);  // the cycle has passed already
+            figures_.detected_ms = since_provoked_ms() - ms_of(rig_.robot().cycle);  // the cycle has passed already
           }
           if (figures_.detected_ms) {
-            told = commands_in(rig).moving > 0 ? cycles + 1 : told.value_or(0);
+            told = moving_commands(rig) > 0 ? cycles + 1 : told.value_or(0);
             ++cycles;
           }
           if (!figures_.rest_ms && rig.at_rest()) {
@@ -137,13 +135,13 @@ class Trial {
     figures_.rest_limit_ms = rest_limit_ms();
     figures_.says = drivers::describe(rig_.status().drive_fault);
     if (figures_.detected_ms && figures_.rest_ms) {
-      rig_.run(kCyclesToAct * rates::kCycle);
+      rig_.run(kCyclesToAct * rig_.robot().cycle);
       wait_and_clear();
     }
   }
 
   void count_unasked() {
-    figures_.unasked += commands_in(rig_).moving;
+    figures_.unasked += moving_commands(rig_);
     figures_.unasked += rig_.at_rest() ? 0 : 1;
   }
   void watch(Duration time) {
@@ -194,7 +192,8 @@ Result<FaultFigures> try_fault(const FaultRow& row) {
   if (row.instead) {
     return row.instead();
   }
-  Result<std::unique_ptr<FaultRig>> rig = FaultRig::make({.gateway = row.gateway});
+  Result<std::unique_ptr<FaultRig>> rig =
+      FaultRig::make({.gateway = row.gateway, .layout = row.layout, .receive_bytes = row.receive_bytes});
   if (!rig) {
     return rig.error();
   }

@@ -12,6 +12,7 @@ using std::chrono_literals::operator""ms;
 using std::chrono_literals::operator""s;
 
 constexpr Duration kAtOnce = 2 * rates::kCycle;
+constexpr int kSmallQueueBytes = 23'000;      // the kernel doubles it: 60 frames of 766 bytes
 constexpr std::uint32_t kErrorsGone = 0x084;  // emergencies of drive 4 with code 0: heard, and no fault
 
 void add_interface(FaultRig& rig) {
@@ -29,6 +30,8 @@ void set_interface(FaultRig& rig, const char* state) {
   rig.tool({"ip", "link", "set", FaultRig::kMasterSide, state});
   rig.at_end({"ip", "link", "set", FaultRig::kMasterSide, "up"});
 }
+
+void burst(FaultRig& rig, int frames) { rig.injector().flood(frames, kErrorsGone, {0, 0, 0, 0, 0, 0, 0, 0}); }
 
 /// One frame fits, and leaves after minutes.
 void block_queue(FaultRig& rig) {
@@ -50,6 +53,7 @@ std::vector<FaultRow> faults_of_bus() {
   return {
       {.number = 4,
        .name = "the controller is bus-off",
+       .by = "cansend of an error frame, class 40h",
        .outcome = Outcome::kStopsBus,
        .says = "bus lost: bus-off",
        .detected_within = kAtOnce,
@@ -60,9 +64,11 @@ std::vector<FaultRow> faults_of_bus() {
        .mend =
            [](FaultRig& rig) {
              rig.injector().send(CAN_ERR_FLAG | CAN_ERR_RESTARTED, {0, 0, 0, 0, 0, 0, 0, 0});
-           }},
+           },
+       .also_at_1khz = true},
       {.number = 4,
        .name = "the controller is error passive",
+       .by = "cansend of an error frame, class 04h",
        .says = "bus lost: error passive",
        .detected_within = kAtOnce,
        .provoke =
@@ -75,6 +81,7 @@ std::vector<FaultRow> faults_of_bus() {
            }},
       {.number = 4,
        .name = "nothing that is sent leaves: alone on the bus",
+       .by = "tc netem loss 100%",
        .outcome = Outcome::kStopsBus,
        .says = "commands do not get out: the transmit queue is full or the interface is down",
        .detected_within = rates::kFeedbackTimeout + kAtOnce,
@@ -82,6 +89,7 @@ std::vector<FaultRow> faults_of_bus() {
        .mend = unblock_queue},
       {.number = 5,
        .name = "the transmit queue is full for three cycles",
+       .by = "tc tbf, ENOBUFS for 3 cycles",
        .outcome = Outcome::kGoesOn,
        .says = "no fault",
        .provoke =
@@ -95,13 +103,16 @@ std::vector<FaultRow> faults_of_bus() {
            }},
       {.number = 5,
        .name = "the transmit queue is full and stays so",
+       .by = "tc tbf, ENOBUFS from now on",
        .outcome = Outcome::kStopsBus,
        .says = "commands do not get out: the transmit queue is full or the interface is down",
        .detected_within = 10ms + kAtOnce,
        .provoke = block_queue,
-       .mend = unblock_queue},
+       .mend = unblock_queue,
+       .also_at_1khz = true},
       {.number = 6,
        .name = "the interface goes down",
+       .by = "ip link set vcan0 down",
        .outcome = Outcome::kStopsBus,
        .says = "bus lost: the interface is down",
        .detected_within = kAtOnce,
@@ -109,6 +120,7 @@ std::vector<FaultRow> faults_of_bus() {
        .mend = [](FaultRig& rig) { set_interface(rig, "up"); }},
       {.number = 6,
        .name = "the interface goes down and comes up within a cycle",
+       .by = "ip link set vcan0 down, up",
        .outcome = Outcome::kStopsBus,
        .says = "bus lost: the interface is down",
        .detected_within = kAtOnce,
@@ -119,6 +131,7 @@ std::vector<FaultRow> faults_of_bus() {
            }},
       {.number = 6,
        .name = "the interface is removed and put in again",
+       .by = "ip link del vcan0, add",
        .outcome = Outcome::kStopsBus,
        .says = "bus lost: the interface was removed",
        .detected_within = kAtOnce,
@@ -126,19 +139,28 @@ std::vector<FaultRow> faults_of_bus() {
        .mend = add_interface},
       {.number = 7,
        .name = "the receive queue overflows",
-       .says = "bus flooded: 256 frames in one cycle",  // more than the queue holds is always a flood
+       .by = "150 of 084h at once, room for 60",
+       .says = "* frames were lost on the way in: the receive queue overflowed",
+       .detected_within = 2 * kAtOnce,
+       .provoke = [](FaultRig& rig) { burst(rig, 150); },
+       .loses_frames = true,
+       .receive_bytes = kSmallQueueBytes},
+      {.number = 7,
+       .name = "ten thousand frames at once: the queue as it is",
+       .by = "10,000 of 084h by a third socket",
+       .says = "bus flooded: * frames in one cycle",  // what fills that queue is a flood before it is lost
        .detected_within = 10 * rates::kCycle,
-       .provoke =
-           [](FaultRig& rig) {
-             rig.injector().flood(10'000, kErrorsGone, {0, 0, 0, 0, 0, 0, 0, 0});
-           }},
+       .provoke = [](FaultRig& rig) { burst(rig, 10'000); },
+       .loses_frames = true},
       {.number = 13,
        .name = "a babbling node: id 0 as fast as it goes",
+       .by = "200 of 000h a cycle by a third socket",
        .says = "another master on the bus sent COB-ID 000h; expected none but this controller",
        .detected_within = kAtOnce,
        .provoke = [](FaultRig& rig) { rig.each_cycle([](FaultRig& each) { each.injector().flood(200, 0x000, {}); }); }},
       {.number = 13,
        .name = "a babbling node: \"no error any more\" as fast as it goes",
+       .by = "100 of 084h a cycle by a third socket",
        .says = "bus flooded: * frames in one cycle",
        .detected_within = 10 * rates::kCycle,
        .provoke =

@@ -87,21 +87,35 @@ std::string stuck_change(FaultRig& rig) {
                 position >> 24);
 }
 
-/// The drive's wheel seems to turn by `mmps` more than it does.
-void slip(FaultRig& rig, double mmps) {
-  const DriveParameters& drive = rig.robot().drives[static_cast<std::size_t>(kVictim)];
-  const double turns_per_s = mmps * 1e-3 / rig.robot().base.wheel_radius_m / 6.283185307179586;
-  const double counts = turns_per_s * drive.gear_ratio * drive.counts_per_turn * seconds(rates::kCycle);
-  rig.meddle().outgoing = [counts, drift = 0.0](Frames& frames) mutable {
+void blocked(FaultRig& rig, bool on) {
+  (void)rig.drive(kVictim).script().events.push_back({.at = rig.now(), .fault = drivers::SimFault::kBlocked, .on = on});
+}
+
+/// Adds to the position in a feedback.
+void advance(hal::CanFrame& feedback, std::int32_t counts) {
+  auto position = static_cast<std::uint32_t>(counts);
+  for (std::size_t i = 0; i < 4; ++i) {
+    position += std::uint32_t{feedback.data[2 + i]} << (8 * i);
+  }
+  for (std::size_t i = 0; i < 4; ++i) {
+    feedback.data[2 + i] = static_cast<std::uint8_t>(position >> (8 * i));
+  }
+}
+
+/// The wheels seem to turn by so much more than they do, mm/s forward.
+void slip(FaultRig& rig, const std::array<double, kWheels>& mmps) {
+  std::array<double, kWheels> counts{};  // in a cycle
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const DriveParameters& drive = rig.robot().drives[i];
+    const double turns_per_s = mmps[i] * 1e-3 / rig.robot().base.wheel_radius_m / 6.283185307179586;
+    counts[i] = turns_per_s * drive.sign * drive.gear_ratio * drive.counts_per_turn * seconds(rig.robot().cycle);
+  }
+  rig.meddle().outgoing = [counts, drift = std::array<double, kWheels>{}](Frames& frames) mutable {
     for (hal::CanFrame& frame : frames) {
-      if (is_feedback(frame) && frame.size == 6) {
-        drift += counts;
-        std::uint32_t position = static_cast<std::uint32_t>(static_cast<std::int32_t>(drift));
-        for (std::size_t i = 0; i < 4; ++i) {
-          position += std::uint32_t{frame.data[2 + i]} << (8 * i);
-        }
-        for (std::size_t i = 0; i < 4; ++i) {
-          frame.data[2 + i] = static_cast<std::uint8_t>(position >> (8 * i));
+      for (std::size_t i = 0; i < counts.size(); ++i) {
+        if (frame.id == drivers::cob_id::tpdo1(static_cast<std::uint8_t>(i + 1)) && frame.size == 6) {
+          drift[i] += counts[i];
+          advance(frame, static_cast<std::int32_t>(drift[i]));
         }
       }
     }
@@ -125,33 +139,39 @@ std::vector<FaultRow> faults_of_feedback() {
   return {
       {.number = 8,
        .name = "four feedbacks of a drive in a row are lost, once",
+       .by = "4 of 183h dropped",
        .outcome = Outcome::kGoesOn,
        .says = "no fault",
        .provoke = [](FaultRig& rig) { lose_next(rig, 4); }},
       {.number = 8,
        .name = "a third of a drive's feedback is lost",
+       .by = "every third 183h dropped",
        .says = "drive 3 (rear left): feedback comes missing or double too often (* of 100)",
        .detected_within = 200ms,
        .provoke = [](FaultRig& rig) { lose(rig, 3); },
        .mend = no_meddling},
       {.number = 8,
        .name = "a drive's feedback comes a cycle late",
+       .by = "each 183h held for a cycle",
        .outcome = Outcome::kGoesOn,
        .says = "no fault",
        .provoke = [](FaultRig& rig) { delay(rig, 1); }},
       {.number = 8,
        .name = "a drive's feedback comes twice",
+       .by = "each 183h sent twice",
        .says = "drive 3 (rear left): feedback comes missing or double too often (* of 100)",
        .detected_within = 200ms,
        .provoke = double_all,
        .mend = no_meddling},
       {.number = 8,
        .name = "feedback comes in another order",
+       .by = "TPDOs in reverse order",
        .outcome = Outcome::kGoesOn,
        .says = "no fault",
        .provoke = reverse_order},
       {.number = 10,
        .name = "a drive's position stays while it moves",
+       .by = "cangw rewrites 183h",
        .says = "drive 3 (rear left): told to turn, but its position stays: encoder, coupling or a blocked wheel",
        .detected_within = 500ms,
        .provoke =
@@ -161,8 +181,16 @@ std::vector<FaultRow> faults_of_feedback() {
            },
        .mend = [change](FaultRig& rig) { rewrite_no_more(rig, *change); },
        .gateway = true},
+      {.number = 10,
+       .name = "a wheel is blocked",
+       .by = "wheel of drive 3 does not turn",
+       .says = "drive 3 (rear left): told to turn, but its position stays: encoder, coupling or a blocked wheel",
+       .detected_within = 500ms,
+       .provoke = [](FaultRig& rig) { blocked(rig, true); },
+       .mend = [](FaultRig& rig) { blocked(rig, false); }},
       {.number = 15,
        .name = "a drive's feedback is a byte short",
+       .by = "cangw cuts 183h to 5 bytes",
        .says = "drive 3 (rear left): feedback lost: TPDO1 does not arrive",
        .detected_within = rates::kFeedbackTimeout + kAtOnce,
        .provoke = [](FaultRig& rig) { rewrite(rig, "SET:L:183.5.0000000000000000"); },
@@ -170,6 +198,7 @@ std::vector<FaultRow> faults_of_feedback() {
        .gateway = true},
       {.number = 15,
        .name = "an emergency of three bytes",
+       .by = "083h with DLC 3 by a third socket",
        .says = "drive 3 (rear left): emergency of a wrong length",
        .detected_within = kAtOnce,
        .provoke =
@@ -178,14 +207,31 @@ std::vector<FaultRow> faults_of_feedback() {
            }},
       {.number = 15,
        .name = "remote, extended and FD frames with our COB-IDs",
+       .by = "18 frames a cycle by a third socket",
        .outcome = Outcome::kGoesOn,
        .says = "no fault",
        .provoke = send_what_is_no_data_frame},
       {.number = 27,
-       .name = "a wheel turns 0.2 m/s faster than the base can explain",
+       .name = "all wheels slip by 0.12 m/s, as no body can move",
+       .by = "positions in 181h to 184h run ahead",
        .says = "wheels slip: * mm/s that no motion of the base explains",
+       .detected_within = 1s,  // the end of a ramp explains some of it
+
+       .provoke =
+           [](FaultRig& rig) {
+             slip(rig, {120.0, 120.0, -120.0, -120.0});
+           },
+       .mend = no_meddling},
+      {.number = 27,
+       .name = "one wheel turns 0.3 m/s faster than told",
+       .by = "positions in 183h run ahead",
+       .says =
+           "drive 3 (rear left): turns * mm/s otherwise than told: blocked, driven from outside, or a slipping belt",
        .detected_within = 500ms,
-       .provoke = [](FaultRig& rig) { slip(rig, 200.0); },
+       .provoke =
+           [](FaultRig& rig) {
+             slip(rig, {0.0, 0.0, 300.0, 0.0});
+           },
        .mend = no_meddling},
   };
 }

@@ -17,7 +17,12 @@ std::string foreign(std::uint16_t id) {
 }
 
 FaultRow second_master(const char* name, std::uint16_t id, std::function<void(FaultRig&)> provoke) {
-  return {.number = 26, .name = name, .says = foreign(id), .detected_within = kAtOnce, .provoke = std::move(provoke)};
+  return {.number = 26,
+          .name = name,
+          .by = format("one %03Xh by a third socket", id),
+          .says = foreign(id),
+          .detected_within = kAtOnce,
+          .provoke = std::move(provoke)};
 }
 
 }  // namespace
@@ -26,11 +31,13 @@ std::vector<FaultRow> faults_of_others() {
   return {
       {.number = 11,
        .name = "a second source of SYNC",
+       .by = "080h each cycle by a third socket",
        .says = foreign(0x080),
        .detected_within = kAtOnce,
        .provoke = [](FaultRig& rig) { rig.each_cycle([](FaultRig& each) { each.injector().send(0x080, {}); }); }},
       {.number = 11,
        .name = "SYNC reaches no drive any more",
+       .by = "080h dropped before the drives",
        .outcome = Outcome::kStopsBus,
        .says = "drive 1 (front left): feedback lost: TPDO1 does not arrive",
        .detected_within = rates::kFeedbackTimeout + kAtOnce,
@@ -43,6 +50,7 @@ std::vector<FaultRow> faults_of_others() {
        .mend = [](FaultRig& rig) { rig.meddle().incoming = nullptr; }},
       {.number = 12,
        .name = "two devices with one node-id: two heartbeats",
+       .by = "703h every 50 ms by a third socket",
        .says = "drive 3 (rear left): two devices answer to this node-id; expected one each",
        .detected_within = 200ms,
        .provoke =
@@ -55,11 +63,13 @@ std::vector<FaultRow> faults_of_others() {
            }},
       {.number = 12,
        .name = "two devices with one node-id: the second boots",
+       .by = "a boot-up 703h by a third socket",
        .says = "drive 3 (rear left): rebooted",
        .detected_within = kAtOnce,
        .provoke = [](FaultRig& rig) { rig.injector().send(0x703, {0x00}); }},
       {.number = 12,
        .name = "somebody has our node-id",
+       .by = "77Fh by a third socket",
        .says = foreign(0x77F),
        .detected_within = kAtOnce,
        .provoke = [](FaultRig& rig) { rig.injector().send(0x77F, {0x05}); }},

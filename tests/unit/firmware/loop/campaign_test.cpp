@@ -107,6 +107,12 @@ INSTANTIATE_TEST_SUITE_P(
                   std::swap(frames, held);
                 }
               }},
+        Wrong{"motion while a stop input is pressed",
+              [held = Frames()](Frames& frames) mutable {
+                if (has_commands(frames)) {
+                  std::swap(frames, held);
+                }
+              }},
         Wrong{"heartbeat though the last commands did not get out",
               [](Frames& frames) { frames.push_back({.id = 0x77F, .size = 1, .data = {0x05}}); }},
         Wrong{"commands without SYNC before them",
