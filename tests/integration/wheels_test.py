@@ -34,6 +34,18 @@ class Wheels(unittest.TestCase):
         self.addCleanup(scratch.cleanup)
         self.folder = scratch.name
 
+    def test_list_says_which_eds_was_checked(self):
+        path = robot_with(self.folder, "robot.toml", {})
+        with open(path, encoding="utf-8") as file:
+            text = file.read()
+        eds = os.path.join(SOURCE_DIR, "config", "eds", "ivo_drive.eds")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text.replace("[drive.rear_left]\n", f'[drive.rear_left]\neds = "{eds}"\n', 1))
+        done = ivo("wheels", "list", "--sim", "--robot", path)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertEqual(re.findall(r"(?m)^checked +(.*)$", done.stdout),
+                         [f"rear left: {eds} has all that the controller reads and writes"])
+
     def test_list_shows_every_drive_and_what_it_can(self):
         done = ivo("wheels", "list", "--sim")
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)

@@ -4,6 +4,8 @@
 #include <chrono>
 #include <cstring>
 #include <map>
+#include <utility>
+#include <vector>
 
 #include "config/rates.hpp"
 #include "tests/unit/hal/vcan_rig.hpp"
@@ -91,6 +93,45 @@ TEST_F(ThrottledBusTest, AFullQueueIsCountedAndTheRestGoesOutLater) {
     (void)receive(bus, Instant{});
     EXPECT_EQ(bus.send({}, Instant{} + rates::kTransmitAge), 0U) << "none of them was given now";
   }
+}
+
+TEST_F(ThrottledBusTest, WhatIsHandedOverIsWhatAnotherNodeHearsInTheSameOrder) {
+  throttle("32kbit", 3);
+  SocketCanBus bus = SocketCanBus::open(kLink).value();
+  const Stranger drive(kLink);
+  using Seen = std::pair<canid_t, std::uint32_t>;
+  std::vector<Seen> handed_over;
+  std::vector<Seen> heard;
+  std::uint64_t left_over = 0;
+  const auto listen = [&] {
+    for (const can_frame& frame : drive.heard()) {
+      heard.emplace_back(frame.can_id, cycle_of(frame));
+    }
+  };
+  Instant now{};
+  for (std::uint32_t cycle = 0; cycle < kCycles; ++cycle) {
+    (void)receive(bus, now);
+    listen();
+    const auto frames = frames_of(cycle);  // every other cycle, so that something is left over for those between
+    const std::size_t given_now = bus.send(std::span(frames).first(cycle % 2 == 0 ? frames.size() : 0), now);
+    left_over += bus.handed_over().size() - given_now;
+    for (const CanFrame& frame : bus.handed_over()) {
+      std::uint32_t given_in = 0;
+      std::memcpy(&given_in, frame.data.data(), sizeof given_in);
+      handed_over.emplace_back(frame.id, given_in);
+    }
+    (void)bus.wait_readable(milliseconds(2));
+    now += rates::kCycle;
+  }
+  while (bus.counters().confirmed < bus.counters().sent) {
+    (void)bus.wait_readable(milliseconds(100));
+    (void)receive(bus, now);
+  }
+  listen();
+  EXPECT_EQ(handed_over, heard);
+  EXPECT_EQ(handed_over.size(), bus.counters().sent);
+  EXPECT_GT(left_over, 0U) << "some waited";
+  EXPECT_GT(bus.counters().send_replaced + bus.counters().send_dropped, 0U) << "some in vain";
 }
 
 TEST_F(ThrottledBusTest, WhatAFullQueueDidNotTakeInTimeNeverGoesOut) {
