@@ -17,7 +17,7 @@ namespace {
 
 static_assert(kFilterIds == CAN_RAW_FILTER_MAX);
 
-constexpr int kPriority = 6;                  // the first band of a pfifo_fast queue, without privileges
+constexpr int kPriority = 6;  // the first band of a pfifo_fast queue, without privileges
 
 // Without the two flags in the mask, extended and remote frames with the same low bits pass too.
 constexpr canid_t kPlainFrame = CAN_EFF_FLAG | CAN_RTR_FLAG;
