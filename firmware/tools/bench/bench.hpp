@@ -68,9 +68,9 @@ class Sheet {
 };
 
 struct Bench {
-  const char* name;
-  const char* about;  ///< one line
-  void (*run)(const Options& options, Sheet& sheet);
+  const char* name = "";
+  const char* about = "";  ///< one line
+  void (*run)(const Options& options, Sheet& sheet) = nullptr;
   /// Its records for people, where they are more than a table of figures (bench_report.hpp); none: table_of.
   std::string (*table)(std::span<const Record> records) = nullptr;
 };
