@@ -128,9 +128,9 @@ void ControlLoop::look_at_drives() noexcept {
 // Pressed in motion it is a fault. Before, it only keeps the robot from getting ready, as a drive without power does.
 void ControlLoop::look_at_stop_inputs() noexcept {
   const auto pressed = stop_inputs_.judge(inputs_ != nullptr ? inputs_->snapshot(now_) : hal::DigitalSnapshot{});
-  stop_held_ = pressed.has_value();
-  clear_asked_ = clear_asked_ && !stop_held_;
-  if (stop_held_ && permissions(mode_).may_move) {
+  stop_held_ = pressed.value_or(drivers::DriveFault{});
+  clear_asked_ = clear_asked_ && !pressed;
+  if (pressed && permissions(mode_).may_move) {
     fail(*pressed);
   }
 }
@@ -184,6 +184,7 @@ void ControlLoop::look_for_object() noexcept {
 void ControlLoop::decide_mode() noexcept {
   using drivers::GroupState;
   const bool enabled = wheels_.state == GroupState::kEnabled;
+  const bool stop_held = stop_held_.reason != drivers::DriveFaultReason::kNone;
   const Mode before = mode_;
   mode_ = mode_machine_.update(
       {
@@ -193,7 +194,7 @@ void ControlLoop::decide_mode() noexcept {
           .clear_asked = clear_asked_,
           .search_ended = search_.state() != SearchState::kRunning,
           .drives_ready =
-              !stop_held_ && (enabled || wheels_.state == GroupState::kReady || wheels_.state == GroupState::kEnabling),
+              !stop_held && (enabled || wheels_.state == GroupState::kReady || wheels_.state == GroupState::kEnabling),
           .drives_enabled = enabled,
           .drives_standstill = wheels_.standstill && at_rest(moving_),
           .drives_fault = wheels_.state == GroupState::kFault,
@@ -328,6 +329,7 @@ void ControlLoop::publish() noexcept {
   status.stop_cause = stop_cause_;
   status.drives = wheels_.state;
   status.drive_fault = wheels_.fault;
+  status.stop_held = stop_held_;
   status.counters = counters_;
   status_.write(status);
 }

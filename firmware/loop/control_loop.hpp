@@ -114,9 +114,9 @@ class ControlLoop {
   Mode mode_ = Mode::kPlanning;
   drivers::DriveFaultReason fault_recorded_ = drivers::DriveFaultReason::kNone;
 
-  Twist moving_;            // last sent
-  WheelValues told_{};      // rad/s, of that
-  bool stop_held_ = false;  // an input is pressed
+  Twist moving_;                     // last sent
+  WheelValues told_{};               // rad/s, of that
+  drivers::DriveFault stop_held_{};  // an input is pressed
   PathFollower::Output following_;
   bool plan_ready_ = false;
   bool consent_ = false;

@@ -43,6 +43,7 @@ struct LoopStatus {
   StopCause stop_cause = StopCause::kNone;
   drivers::GroupState drives = drivers::GroupState::kBooting;
   drivers::DriveFault drive_fault;
+  drivers::DriveFault stop_held;  ///< a stop input that is pressed now: the robot does not get ready
   LoopCounters counters;
 };
 

@@ -53,6 +53,12 @@ void RunTerminal::show_plan(const planner::Plan& plan) {
 }
 
 void RunTerminal::show_starting(const LoopStatus& status) {
+  const bool held = status.stop_held.reason != drivers::DriveFaultReason::kNone;
+  if (held && !stop_held_) {
+    line_.end();
+    say("waiting", drivers::describe(status.stop_held) + "; the robot gets ready when that has ended");
+  }
+  stop_held_ = held;
   if (line_.live() && line_.due(0, 1)) {
     line_.draw("drives", format("the drives start up (%.1f s)", seconds(status.at.time_since_epoch())));
   }

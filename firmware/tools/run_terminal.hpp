@@ -30,6 +30,7 @@ class RunTerminal {
   const RunView& run_;
   LiveLine line_;
   double horizon_s_ = 0.0;
+  bool stop_held_ = false;  // and said
 };
 
 enum class Answer : std::uint8_t { kNone, kYes, kNo };

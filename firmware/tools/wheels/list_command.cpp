@@ -26,7 +26,7 @@ void say_eds(const Robot& robot) {
 }  // namespace
 
 int list(const Options& options) {
-  const Result<std::unique_ptr<World>> world = World::open(options);
+  const Result<std::unique_ptr<World>> world = World::open(options, World::Purpose::kLook);
   if (!world) {
     return refuse(world.error());
   }

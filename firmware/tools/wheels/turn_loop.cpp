@@ -5,7 +5,8 @@
 
 namespace ivo::firmware::wheels {
 
-TurnLoop::TurnLoop(World& world) : world_(world), turner_(world.bus(), world.robot()), thread_([this] { run(); }) {}
+TurnLoop::TurnLoop(World& world)
+    : world_(world), turner_(world.bus(), world.robot(), world.inputs()), thread_([this] { run(); }) {}
 
 TurnLoop::~TurnLoop() {
   end();

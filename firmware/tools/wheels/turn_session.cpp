@@ -39,7 +39,7 @@ std::unique_ptr<TurnSession> TurnSession::begin(const Options& options, const ch
               " turns a wheel only while somebody holds a key; expected a terminal on standard input and output"});
     return nullptr;
   }
-  Result<std::unique_ptr<World>> world = World::open(options);
+  Result<std::unique_ptr<World>> world = World::open(options, World::Purpose::kTurn);
   if (!world) {
     complain(world.error());
     return nullptr;

@@ -22,7 +22,7 @@ constexpr int kBatches = 4;     // of frames in one look: more than any bus carr
 }  // namespace
 
 int watch(const Options& options) {
-  const Result<std::unique_ptr<World>> opened = World::open(options);
+  const Result<std::unique_ptr<World>> opened = World::open(options, World::Purpose::kLook);
   if (!opened) {
     return refuse(opened.error());
   }

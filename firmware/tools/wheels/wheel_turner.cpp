@@ -17,8 +17,13 @@ Robot slow(Robot robot) noexcept {
 
 }  // namespace
 
-WheelTurner::WheelTurner(hal::CanBus& bus, const Robot& robot) noexcept
-    : bus_(bus, slow(robot)), drives_(bus_, robot), cycle_(robot.cycle), longest_step_(2 * robot.cycle) {
+WheelTurner::WheelTurner(hal::CanBus& bus, const Robot& robot, hal::DigitalInputs* inputs) noexcept
+    : bus_(bus, slow(robot)),
+      drives_(bus_, robot),
+      stop_inputs_(robot.inputs),
+      inputs_(inputs),
+      cycle_(robot.cycle),
+      longest_step_(2 * robot.cycle) {
   std::ranges::transform(robot.drives, scales_.begin(), TurnMeasure::scale_of);
 }
 
@@ -62,15 +67,20 @@ void WheelTurner::drain_bus() noexcept {
   }
 }
 
-void WheelTurner::look_at_drives(std::int64_t skipped) noexcept {
+void WheelTurner::look_at_drives(std::int64_t late) noexcept {
   wheels_ = drives_.update(now_);
-  if (enable_ && skipped >= rates::kLatestPeriods) {
-    const DriveFault late{.reason = DriveFaultReason::kCycleLate, .code = static_cast<std::uint32_t>(skipped)};
-    drives_.fail(late, now_);
-    wheels_.state = GroupState::kFault;
-    wheels_.fault = late;
-    wheels_.off = false;
+  if (enable_ && late >= rates::kLatestPeriods) {
+    fail({.reason = DriveFaultReason::kCycleLate, .code = static_cast<std::uint32_t>(late)});
   }
+  const hal::DigitalSnapshot snapshot = inputs_ != nullptr ? inputs_->snapshot(now_) : hal::DigitalSnapshot{};
+  if (const auto pressed = stop_inputs_.judge(snapshot)) {
+    fail(*pressed);
+  }
+}
+
+void WheelTurner::fail(const DriveFault& fault) noexcept {
+  drives_.fail(fault, now_);
+  wheels_ = drives_.feedback();
 }
 
 void WheelTurner::listen_to_keys(const Keys& keys) noexcept {

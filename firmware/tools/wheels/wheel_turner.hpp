@@ -12,6 +12,7 @@
 #include "config/robot.hpp"
 #include "drivers/drive_group.hpp"
 #include "firmware/safety/guarded_bus.hpp"
+#include "firmware/safety/stop_inputs.hpp"
 #include "firmware/tools/wheels/dead_man.hpp"
 #include "firmware/tools/wheels/turn_measure.hpp"
 
@@ -73,8 +74,9 @@ class WheelTurner {
   static constexpr Duration kPatience = std::chrono::minutes(5);
   static constexpr Duration kGiveUp = rates::kStandstillTimeout + rates::kStateChangeTimeout;
 
-  /// `bus` outlives this.
-  WheelTurner(hal::CanBus& bus, const Robot& robot) noexcept;
+  /// `bus` and `inputs` outlive this. Stop inputs that the robot has and nobody reads count as pressed; one that is
+  /// pressed, at any time, is a fault and ends it.
+  WheelTurner(hal::CanBus& bus, const Robot& robot, hal::DigitalInputs* inputs = nullptr) noexcept;
 
   void open(Instant now) noexcept;
   /// From now on; what is held does not count for it.
@@ -93,7 +95,8 @@ class WheelTurner {
 
  private:
   void drain_bus() noexcept;
-  void look_at_drives(std::int64_t skipped) noexcept;
+  void look_at_drives(std::int64_t late) noexcept;
+  void fail(const drivers::DriveFault& fault) noexcept;
   void listen_to_keys(const Keys& keys) noexcept;
   void measure() noexcept;
   void look_for_end(const Keys& keys) noexcept;
@@ -106,6 +109,8 @@ class WheelTurner {
 
   GuardedBus bus_;
   drivers::DriveGroup drives_;
+  StopInputs stop_inputs_;
+  hal::DigitalInputs* inputs_;
   Duration cycle_;
   Duration longest_step_;
   std::array<TurnMeasure::Scale, kWheels> scales_;

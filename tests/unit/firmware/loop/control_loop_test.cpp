@@ -350,6 +350,7 @@ TEST_F(StopInputsOfTheLoop, PressedAtTheStartItOnlyKeepsTheRobotFromGettingReady
   inputs_.press(0);
   EXPECT_FALSE(rig_.run_until(Mode::kAwaitingConsent, 20s));
   EXPECT_EQ(rig_.loop().status().mode, Mode::kStarting);
+  EXPECT_EQ(drivers::describe(rig_.loop().status().stop_held), "emergency stop pressed");
   inputs_.release(0);
   ASSERT_TRUE(rig_.run_until(Mode::kAwaitingConsent, 1s));
   inputs_.press(0);

@@ -14,6 +14,7 @@
 #include "drivers/canopen/little_endian.hpp"
 #include "drivers/sim/sim_drives.hpp"
 #include "firmware/tools/wheels/wheel_turner.hpp"
+#include "hal/sim/digital_inputs.hpp"
 #include "hal/sim/manual_clock.hpp"
 #include "hal/sim/virtual_bus.hpp"
 
@@ -37,10 +38,12 @@ class TurnerRig {
       : robot(file),
         truth(base),
         drives(bus.port(1), truth, drivers::SimDrives::TimeFrom::kClock, scripts),
-        turner(bus.port(0), robot) {
+        turner(bus.port(0), robot, &inputs) {
     drives.open();
     turner.open(clock.now());
   }
+
+  hal::SimDigitalInputs inputs;  // input 0: emergency stop, where the robot file has one
 
   const TurnStatus& cycle(const WheelTurner::Keys& keys = {}, std::int64_t skipped = 0) {
     const TurnStatus& status = turner.cycle(clock.now(), skipped, keys);

@@ -57,6 +57,29 @@ TEST(WheelTurner, MovesNothingAndPowersNothingWithoutAKey) {
   EXPECT_EQ(rig.largest_target(3), 0);
 }
 
+TEST(WheelTurner, AnEmergencyStopEndsItWithPowerOff) {
+  Robot robot = geared_robot();
+  robot.inputs = {.chip = "gpiochip0", .emergency_stop = InputLine{}, .bumpers = {}};
+  ReadyRig rig({.wheel = Wheel::kRearLeft, .radps = 0.5, .limit_rad = 0.0}, robot);
+  rig.hold(3s);
+  ASSERT_EQ(rig.status().phase, TurnPhase::kTurning);
+  rig.inputs.press(0);
+  rig.hold(2s);
+  EXPECT_EQ(rig.status().end, TurnEnd::kFault);
+  EXPECT_EQ(rig.status().fault.reason, drivers::DriveFaultReason::kStopInput);
+  EXPECT_TRUE(rig.run_until(TurnPhase::kEnded));
+  EXPECT_FALSE(rig.any_power());
+}
+
+TEST(WheelTurner, StopInputsThatNobodyReadsLetNoWheelTurn) {
+  Robot robot = geared_robot();
+  robot.inputs = {.chip = "gpiochip0", .emergency_stop = InputLine{}, .bumpers = {}};
+  hal::VirtualBus bus;
+  WheelTurner turner(bus.port(0), robot);
+  turner.open(Instant{});
+  EXPECT_EQ(turner.cycle(Instant(2ms), 0, {}).end, TurnEnd::kFault);
+}
+
 TEST(WheelTurner, ATapPowersTheDrivesButMovesNothing) {
   ReadyRig rig;
   rig.cycle({.hold = true});
