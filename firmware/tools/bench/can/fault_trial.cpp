@@ -47,6 +47,22 @@ int moving_commands(FaultRig& rig) {
   return moving;
 }
 
+/// Drives that were told in the last cycle to stop by quick stop or voltage off; their target is moving_commands'
+/// matter.
+int drives_told_to_stop(FaultRig& rig) {
+  int told = 0;
+  for (const DriveParameters& drive : rig.robot().drives) {
+    told += std::any_of(rig.sent().begin(), rig.sent().end(),
+                        [&](const hal::CanFrame& frame) {
+                          const int word = frame.data[0] | frame.data[1] << 8;
+                          return frame.id == drivers::cob_id::rpdo1(drive.node_id) && (word == 0x02 || word == 0x00);
+                        })
+                ? 1
+                : 0;
+  }
+  return told;
+}
+
 class Trial {
  public:
   Trial(const FaultRow& row, FaultRig& rig) : row_(row), rig_(rig) {}
@@ -112,7 +128,9 @@ class Trial {
   }
 
   void stop() {
-    std::optional<int> told;  // cycles since detection with the last command that did not stop
+    // Cycles since detection until all four are told to stop, and with the last command that did not stop.
+    std::optional<int> told;
+    bool all_told = row_.outcome == Outcome::kStopsBus;  // there nobody can be told
     int cycles = 0;
     fastest_mps_ = rig_.rim_speed_mps();
     rig_.run_until(
@@ -122,7 +140,8 @@ class Trial {
             figures_.detected_ms = since_provoked_ms() - ms_of(rig_.robot().cycle);  // the cycle has passed already
           }
           if (figures_.detected_ms) {
-            told = moving_commands(rig) > 0 ? cycles + 1 : told.value_or(0);
+            all_told = all_told || drives_told_to_stop(rig) == kWheels;
+            told = moving_commands(rig) > 0 || !all_told ? cycles + 1 : told.value_or(0);
             ++cycles;
           }
           if (!figures_.rest_ms && rig.at_rest()) {
