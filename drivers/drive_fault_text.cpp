@@ -67,7 +67,8 @@ std::string reason_of(const DriveFault& fault) {
     case DriveFaultReason::kFaultResetFailed:
       return "fault could not be reset (statusword " + hexadecimal(fault.code, 4) + ")";
     case DriveFaultReason::kCommandsNotSent:
-      return "commands do not get out: the transmit queue is full or the interface is down";
+      return "commands do not get out: no other node acknowledges them, the transmit queue is full, or the interface "
+             "is down";
     case DriveFaultReason::kFeedbackErratic:
       return "feedback comes missing or double too often (" + std::to_string(fault.code) + " of 100)";
     case DriveFaultReason::kDuplicateNodeId:

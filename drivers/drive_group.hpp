@@ -72,12 +72,11 @@ class DriveGroup {
   /// What update() returned last, with what fail() has made of it since.
   [[nodiscard]] const GroupFeedback& feedback() const noexcept { return feedback_; }
   /// Sends at most kFramesPerWrite frames in one CanBus::send: start-up, SYNC, the commands (pdo_layout.hpp), which the
-  /// drives act on at the next SYNC, and last our heartbeat: a bus that does not take all takes no heartbeat, nor is
-  /// one sent in the write after, so drives that we do not reach stop by themselves. Nor is there any before each drive
+  /// drives act on at the next SYNC, and last our heartbeat, which a full queue does not take. None is sent after a
+  /// write that the bus did not take whole, so drives that we do not reach stop by themselves; nor before each drive
   /// has confirmed, since open(), that its voltage is off: one that turned for a dead master, or missed its NMT reset,
-  /// must not be kept going by ours. Without `enable` no frame goes out
-  /// that could move a wheel: moving wheels get a quick stop, so a gentle stop is ramped down by the targets first;
-  /// wheels at rest get shutdown.
+  /// must not be kept going by ours. Without `enable` no frame goes out that could move a wheel: moving wheels get a
+  /// quick stop, so a gentle stop is ramped down by the targets first; wheels at rest get shutdown.
   void write(Instant now, bool enable, const WheelTargets& targets) noexcept;
   /// Quick stop, power off when still: kStopping, then kReady. Idempotent; without effect in kBooting, kReady, kFault
   /// save that enable must have been false before it counts again.

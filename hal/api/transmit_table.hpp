@@ -2,6 +2,10 @@
 //
 // A queue of the kernel or of a controller cannot be called back. So it never holds two frames of one COB-ID: a
 // velocity waits here, where a newer one replaces it, until the one before has left. No sockets, no clock, no heap.
+//
+// The one that a queue already holds when nobody acknowledges any more cannot be called back either: it leaves when the
+// cable is back, however old. Then the drives have missed our heartbeat and left Operational, where no RPDO acts
+// (1029h:1, which start-up sees to); a cable that is back sooner brings one old command, and a stop behind it.
 #pragma once
 
 #include <array>

@@ -83,7 +83,8 @@ std::vector<FaultRow> faults_of_bus() {
        .name = "nothing that is sent leaves: alone on the bus",
        .by = "tc netem loss 100%",
        .outcome = Outcome::kStopsBus,
-       .says = "commands do not get out: the transmit queue is full or the interface is down",
+       .says = "commands do not get out: no other node acknowledges them, the transmit queue is full, or the interface "
+               "is down",
        .detected_within = rates::kFeedbackTimeout + kAtOnce,
        .provoke = lose_all_sent,
        .mend = unblock_queue},
@@ -105,7 +106,8 @@ std::vector<FaultRow> faults_of_bus() {
        .name = "the transmit queue is full and stays so",
        .by = "tc tbf, ENOBUFS from now on",
        .outcome = Outcome::kStopsBus,
-       .says = "commands do not get out: the transmit queue is full or the interface is down",
+       .says = "commands do not get out: no other node acknowledges them, the transmit queue is full, or the interface "
+               "is down",
        .detected_within = 10ms + kAtOnce,
        .provoke = block_queue,
        .mend = unblock_queue,

@@ -89,7 +89,8 @@ std::vector<FaultRow> faults_of_loop() {
       wrong_command("an infinite twist", "command not finite", WrongCommand::kInfinite),
       wrong_command("a twist of 1e9 m/s", "too fast", WrongCommand::kHuge),
       wrong_command("wheel speeds of 1e9 m/s past the first door",
-                    "commands do not get out: the transmit queue is full or the interface is down",
+                    "commands do not get out: no other node acknowledges them, the transmit queue is full, or the "
+                    "interface is down",
                     WrongCommand::kHugePastTheGate),
   };
 }
