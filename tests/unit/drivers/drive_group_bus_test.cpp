@@ -27,8 +27,9 @@ TEST_P(FullQueue, IsAFaultOfAllFourAndStopsThem) {
   }
   EXPECT_EQ(rig.cycle().state, GroupState::kFault);
   EXPECT_EQ(rig.feedback.fault.reason, DriveFaultReason::kCommandsNotSent);
-  EXPECT_EQ(describe(rig.feedback.fault),
-            "commands do not get out: no other node acknowledges them, the transmit queue is full, or the interface is down");
+  EXPECT_EQ(
+      describe(rig.feedback.fault),
+      "commands do not get out: no other node acknowledges them, the transmit queue is full, or the interface is down");
   rig.run(rates::kMasterHeartbeatTimeout + milliseconds(400));
   EXPECT_EQ(heartbeats(rig, before), 0);
   EXPECT_FALSE(any_enabled(rig));
