@@ -156,7 +156,8 @@ void WheelTurner::choose_speed() noexcept {
 void WheelTurner::write() noexcept {
   drivers::WheelTargets targets;
   targets.radps[static_cast<std::size_t>(order_.wheel)] = told_radps_;
-  bus_.permit_motion(enable_);
+  // Not during start-up, whose SDO the door keeps apart from motion.
+  bus_.permit_motion(enable_ && wheels_.state != GroupState::kBooting);
   drives_.write(now_, enable_, targets);
 }
 

@@ -3,6 +3,7 @@
 #include <limits>
 #include <random>
 
+#include "drivers/drive_fault_text.hpp"
 #include "tests/unit/firmware/tools/wheels/turner_rig.hpp"
 
 namespace ivo::firmware {
@@ -55,6 +56,17 @@ TEST(WheelTurner, MovesNothingAndPowersNothingWithoutAKey) {
     ASSERT_FALSE(rig.any_power());
   }
   EXPECT_EQ(rig.largest_target(3), 0);
+}
+
+TEST(WheelTurner, AKeyThatIsHeldDuringStartUpDoesNotDisturbIt) {
+  TurnerRig rig;
+  rig.turner.give({.wheel = Wheel::kRearLeft, .radps = 0.5, .limit_rad = 0.0});
+  rig.hold(5s);
+  EXPECT_EQ(rig.turner.status().end, TurnEnd::kNone) << drivers::describe(rig.turner.status().fault);
+  EXPECT_FALSE(rig.any_power()) << "it was held before there was anything to hold it for";
+  rig.run(2s);
+  rig.hold(3s);
+  EXPECT_EQ(rig.turner.status().phase, TurnPhase::kTurning);
 }
 
 TEST(WheelTurner, AnEmergencyStopEndsItWithPowerOff) {
