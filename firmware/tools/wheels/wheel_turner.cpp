@@ -139,7 +139,9 @@ void WheelTurner::decide_power() noexcept {
   }
   cut_ = cut_ && wheels_.state != GroupState::kReady;
   const bool in_use = last_use_.has_value() && now_ - *last_use_ <= kPowerOffAfter;
-  enable_ = in_use && !cut_ && orders_ > 0 && end_ == TurnEnd::kNone;
+  // Not during start-up, whose SDO the door keeps apart from motion.
+  const bool started = wheels_.state != GroupState::kBooting;
+  enable_ = in_use && started && !cut_ && orders_ > 0 && end_ == TurnEnd::kNone;
 }
 
 void WheelTurner::choose_speed() noexcept {
@@ -156,8 +158,7 @@ void WheelTurner::choose_speed() noexcept {
 void WheelTurner::write() noexcept {
   drivers::WheelTargets targets;
   targets.radps[static_cast<std::size_t>(order_.wheel)] = told_radps_;
-  // Not during start-up, whose SDO the door keeps apart from motion.
-  bus_.permit_motion(enable_ && wheels_.state != GroupState::kBooting);
+  bus_.permit_motion(enable_);
   drives_.write(now_, enable_, targets);
 }
 
