@@ -58,7 +58,7 @@ class Wheels(unittest.TestCase):
     def test_watch_says_what_happens(self):
         self.assertEqual(self.statuses.get("watch"), "0", self.said("watch"))
         self.assertRegex(self.said("watch"), r"controller: its heartbeat is heard\n")
-        self.assertRegex(self.said("watch"), r"front right: emergency 7330h: sensor")
+        self.assertRegex(self.said("watch"), r"front right: emergency 7330h, sensor \(error register 00h")
         self.assertRegex(self.said("watch"), r"rear left: NMT pre-operational\n")
 
     def test_turn_refuses_to_be_a_second_controller(self):
