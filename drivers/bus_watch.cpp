@@ -2,17 +2,10 @@
 
 #include <algorithm>
 
-#include "drivers/canopen/cob_id.hpp"
+#include "drivers/canopen/bus_ids.hpp"
 
 namespace ivo::drivers {
 namespace {
-
-constexpr std::uint16_t kFunctionMask = 0x780;
-
-bool is_command(std::uint16_t function) noexcept {
-  return function == cob_id::sdo_request(0) || function == 0x200 || function == 0x300 || function == 0x400 ||
-         function == 0x500;  // RPDO1 to RPDO4
-}
 
 DriveFault fault_of(DriveFaultReason reason, std::uint64_t code) noexcept {
   return {.reason = reason, .code = static_cast<std::uint32_t>(code)};
@@ -34,7 +27,7 @@ void BusWatch::open(const hal::CanBus& bus) noexcept {
 
 void BusWatch::on_frame(const hal::CanFrame& frame) noexcept {
   ++frames_;
-  if (only_a_master_sends(frame.id)) {
+  if (only_a_master_sends(frame.id, node_ids_, master_node_id_)) {
     foreign_ = fault_of(DriveFaultReason::kForeignMaster, frame.id);
   }
 }
@@ -58,14 +51,6 @@ void BusWatch::update(const hal::CanBus& bus, bool synchronous) noexcept {
   lost_before_ = lost;
   frames_ = 0;
   foreign_ = {};
-}
-
-bool BusWatch::only_a_master_sends(std::uint16_t id) const noexcept {
-  if (id == cob_id::kNmt || id == cob_id::kSync || id == cob_id::heartbeat(master_node_id_)) {
-    return true;
-  }
-  const bool to_ours = std::ranges::find(node_ids_, cob_id::node_of(id)) != node_ids_.end();
-  return to_ours && is_command(id & kFunctionMask);
 }
 
 }  // namespace ivo::drivers

@@ -32,8 +32,6 @@ class BusWatch {
   [[nodiscard]] const DriveFault& fault() const noexcept { return fault_; }
 
  private:
-  [[nodiscard]] bool only_a_master_sends(std::uint16_t id) const noexcept;
-
   std::array<std::uint8_t, kWheels> node_ids_{};
   std::uint8_t master_node_id_;
   std::uint64_t lost_before_ = 0;

@@ -31,4 +31,18 @@ BusIds bus_ids(const Robot& robot) noexcept {
   return ids;
 }
 
+bool only_a_master_sends(std::uint16_t id, std::span<const std::uint8_t> node_ids,
+                         std::uint8_t master_node_id) noexcept {
+  if (id == cob_id::kNmt || id == cob_id::kSync || id == cob_id::heartbeat(master_node_id)) {
+    return true;
+  }
+  return std::ranges::any_of(node_ids, [id](std::uint8_t node_id) {
+    bool command = id == cob_id::sdo_request(node_id);
+    for (std::uint8_t number = 1; number <= cob_id::kPdos; ++number) {
+      command = command || id == cob_id::rpdo(number, node_id);
+    }
+    return command;
+  });
+}
+
 }  // namespace ivo::drivers

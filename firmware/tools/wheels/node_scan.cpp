@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "drivers/canopen/bus_ids.hpp"
 #include "drivers/canopen/cob_id.hpp"
 #include "drivers/canopen/communication_objects.hpp"
 #include "drivers/cia402/objects.hpp"
@@ -28,8 +29,6 @@ constexpr std::array<Reading, kScanObjects> kReadings{{{object::kDeviceType, 4},
 
 constexpr drivers::ObjectAddress kDeviceName{0x1008, 0};
 constexpr std::size_t kAllRead = kScanObjects + 1;
-
-constexpr std::uint16_t kFunctionMask = 0x780;
 
 }  // namespace
 
@@ -69,10 +68,7 @@ void NodeScan::cycle(Instant now) noexcept {
 }
 
 void NodeScan::listen_for_controller(std::uint16_t id) noexcept {
-  const std::uint16_t function = id & kFunctionMask;
-  const bool to_ours = std::ranges::find(ours_, cob_id::node_of(id)) != ours_.end();
-  const bool command = function == cob_id::sdo_request(0) || function == cob_id::rpdo1(0);
-  if (id == cob_id::kNmt || id == cob_id::kSync || id == cob_id::heartbeat(master_node_id_) || (to_ours && command)) {
+  if (drivers::only_a_master_sends(id, ours_, master_node_id_)) {
     controller_ = controller_.value_or(id);
   }
 }
