@@ -19,6 +19,7 @@ BusWatch::BusWatch(const Robot& robot) noexcept : master_node_id_(robot.master_n
 
 void BusWatch::open(const hal::CanBus& bus) noexcept {
   lost_before_ = bus.counters().receive_dropped;
+  refused_before_ = bus.counters().send_refused;
   frames_ = 0;
   flooded_cycles_ = 0;
   foreign_ = {};
@@ -34,6 +35,7 @@ void BusWatch::on_frame(const hal::CanFrame& frame) noexcept {
 
 void BusWatch::update(const hal::CanBus& bus, bool synchronous) noexcept {
   const std::uint64_t lost = bus.counters().receive_dropped;
+  const std::uint64_t refused = bus.counters().send_refused;
   const hal::BusState state = bus.state();
   const bool passive = state == hal::BusState::kPassive && synchronous;
   flooded_cycles_ = frames_ > kFloodFrames ? flooded_cycles_ + 1 : 0;
@@ -41,6 +43,8 @@ void BusWatch::update(const hal::CanBus& bus, bool synchronous) noexcept {
     fault_ = fault_of(DriveFaultReason::kBusLost, static_cast<std::uint64_t>(state));
   } else if (foreign_.reason != DriveFaultReason::kNone) {
     fault_ = foreign_;
+  } else if (refused != refused_before_) {
+    fault_ = fault_of(DriveFaultReason::kCommandRefused, refused - refused_before_);
   } else if (flooded_cycles_ >= kFloodCycles) {
     fault_ = fault_of(DriveFaultReason::kBusFlooded, frames_);
   } else if (lost != lost_before_) {
@@ -49,6 +53,7 @@ void BusWatch::update(const hal::CanBus& bus, bool synchronous) noexcept {
     fault_ = {};
   }
   lost_before_ = lost;
+  refused_before_ = refused;
   frames_ = 0;
   foreign_ = {};
 }

@@ -1,5 +1,5 @@
-// What the bus itself tells: whether it is still there, whether frames are lost, and whether somebody else plays the
-// master.
+// What the bus itself tells: whether it is still there, whether frames are lost or ours are refused, and whether
+// somebody else plays the master.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,7 @@ class BusWatch {
 
   explicit BusWatch(const Robot& robot) noexcept;
 
-  /// Forgets what was seen; what was lost before counts no more.
+  /// Forgets what was seen; what was lost or refused before counts no more.
   void open(const hal::CanBus& bus) noexcept;
   void on_frame(const hal::CanFrame& frame) noexcept;
   /// `synchronous`: PDOs run. An error-passive controller is forgiven before that: drives may just be powered up.
@@ -35,6 +35,7 @@ class BusWatch {
   std::array<std::uint8_t, kWheels> node_ids_{};
   std::uint8_t master_node_id_;
   std::uint64_t lost_before_ = 0;
+  std::uint64_t refused_before_ = 0;
   std::size_t frames_ = 0;  // of this cycle
   int flooded_cycles_ = 0;
   DriveFault foreign_;

@@ -34,6 +34,7 @@ enum class DriveFaultReason : std::uint8_t {
   kWheelNotFollowing,     ///< the wheel turns otherwise than told: blocked, driven, or its belt slips; code: mm/s
   kResetLimit,            ///< faults come back after each reset; code: resets that were tried
   // Of no drive.
+  kCommandRefused,   ///< a bus that judges frames let some of ours not pass; code: how many
   kCommandsNotSent,  ///< the bus did not take kUnsentWrites writes in a row whole
   kBusLost,          ///< code: hal::BusState
   kFramesLost,       ///< the receive queue overflowed; code: frames

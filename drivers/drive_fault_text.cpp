@@ -66,6 +66,9 @@ std::string reason_of(const DriveFault& fault) {
       return "wheel not at rest in time after a stop";
     case DriveFaultReason::kFaultResetFailed:
       return "fault could not be reset (statusword " + hexadecimal(fault.code, 4) + ")";
+    case DriveFaultReason::kCommandRefused:
+      return std::to_string(fault.code) +
+             " frames of this controller were refused at the last door before the bus: a fault of the program";
     case DriveFaultReason::kCommandsNotSent:
       return "commands do not get out: no other node acknowledges them, the transmit queue is full, or the interface "
              "is down";

@@ -44,6 +44,7 @@ void DriveGroup::open(Instant now) noexcept {
   unsent_writes_ = 0;
   disobeyed_ = false;
   reset_asked_ = false;
+  clearing_ = false;
   resetting_ = false;
   feedback_.fault = {};
 }
@@ -192,6 +193,9 @@ void DriveGroup::enter(GroupState state, Instant now) noexcept {
 std::uint16_t DriveGroup::controlword_for(const WheelDrive& drive, Instant now) const noexcept {
   switch (state_) {
     case GroupState::kBooting:
+      if (resetting_ && drive.in_fault()) {
+        return controlword::kFaultReset;
+      }
       break;
     case GroupState::kReady:
       return off_word(drive);

@@ -45,7 +45,8 @@ struct GroupFeedback {
   /// and what a drive sends then may still be from before. In kFault of start-up: each drive has confirmed voltage off
   /// or failed itself. True also when no drive answers and none was ever enabled.
   bool off = true;
-  DriveFault fault;  ///< of kFault; the first one found
+  /// Of kFault: the first one found; once the quick stop has had its time, kNotStill of a wheel that still turns.
+  DriveFault fault;
 };
 
 /// Each cycle, in this order: on_frame for every frame received, update, write. Nothing waits, allocates or throws.
@@ -53,8 +54,8 @@ struct GroupFeedback {
 /// Motion is earned: enable must have been false once since open(), stop() or a fault before true counts, and targets
 /// other than zero go out only while all four are Operation Enabled. Any drive's fault, emergency, reboot, silence,
 /// erratic feedback, twin or unasked change of state latches kFault for all four in the same update, and write then
-/// carries the stop. So do a lost or flooded bus, lost frames, another master, and kUnsentWrites writes in a row that
-/// the bus did not take whole. Being powered in kReady is forgiven for rates::kUnaskedPowerTimeout. A drive whose TPDO1
+/// carries the stop. So do a lost or flooded bus, lost frames, another master, a frame of ours that the bus refuses, and
+/// kUnsentWrites writes in a row that it did not take whole. Being powered in kReady is forgiven for rates::kUnaskedPowerTimeout. A drive whose TPDO1
 /// does not come may have lost SYNC, and then no RPDO acts on it: in kFault it is told to leave NMT state Operational
 /// too, which makes it stop by 6007h. So is one that still has power when quick stop and voltage off had their time,
 /// and then our heartbeat ends as well.
@@ -82,7 +83,7 @@ class DriveGroup {
   /// save that enable must have been false before it counts again.
   void stop(Instant now) noexcept;
   /// In kFault: with the next update, resets the drives in fault, or starts all four up again where a drive must be
-  /// told everything anew. Ends in kReady, or in kFault.
+  /// told everything anew, and then resets those that are in fault. Ends in kReady, or in kFault.
   /// After rates::kResetLimit resets within rates::kResetWindow it stays there, and says so.
   void reset_fault() noexcept;
   /// A fault that somebody else found, as an emergency stop: latched as one of the group's own, so that the next write
@@ -114,6 +115,8 @@ class DriveGroup {
   void update_enabling(Instant now) noexcept;
   void update_stopping(Instant now) noexcept;
   void update_fault(Instant now) noexcept;
+  void judge_quick_stop(Instant now) noexcept;
+  void begin_resetting(Instant now) noexcept;
   void update_resetting(Instant now) noexcept;
 
   void follow(Instant now, bool enable) noexcept;
@@ -140,6 +143,7 @@ class DriveGroup {
   GroupState state_ = GroupState::kBooting;
   Instant since_{};                       // when state_, or the present step of kEnabling or of a reset, was entered
   Instant quick_stop_since_{};            // when the present quick stop began
+  bool quick_stop_judged_ = false;        // in kFault: it has had its time
   cia402::PowerState step_{};             // of kEnabling: the state that all four are to reach next
   bool synchronous_ = false;              // all four are Operational: SYNC and RPDO1 go out
   bool enable_was_false_ = false;         // since open, stop or fault
@@ -154,7 +158,8 @@ class DriveGroup {
   bool reset_asked_ = false;
   std::array<std::optional<Instant>, rates::kResetLimit> resets_;  // the last ones, a ring
   std::size_t next_reset_ = 0;
-  bool resetting_ = false;  // in kFault: the drives' fault reset is under way
+  bool clearing_ = false;   // the present start-up came from a reset: at its end the drives' faults are reset too
+  bool resetting_ = false;  // in kFault or at the end of such a start-up: the drives' fault reset is under way
 };
 
 }  // namespace ivo::drivers

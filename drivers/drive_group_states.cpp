@@ -101,6 +101,7 @@ void DriveGroup::enter_fault(const DriveFault& fault, Instant now) noexcept {
     quick_stop_since_ = now;
   }
   feedback_.fault = fault;
+  quick_stop_judged_ = false;
   enter(GroupState::kFault, now);
   enable_was_false_ = false;
   reset_asked_ = false;
@@ -118,7 +119,13 @@ void DriveGroup::update_booting(Instant now) noexcept {
     }
   } else if (all_reached(WheelDrive::Phase::kOperational)) {
     synchronous_ = true;
-    enter(GroupState::kReady, now);
+    if (!clearing_) {
+      enter(GroupState::kReady, now);
+    } else if (resetting_) {
+      update_resetting(now);
+    } else {
+      begin_resetting(now);
+    }
   }
 }
 
@@ -170,6 +177,7 @@ void DriveGroup::update_fault(Instant now) noexcept {
     update_resetting(now);
     return;
   }
+  judge_quick_stop(now);
   // A reset takes the quick stop away: it waits until the wheels rest or the quick stop had its time.
   const bool at_rest = !synchronous_ || quick_stop_over(now);
   if (!reset_asked_ || !at_rest) {
@@ -186,13 +194,32 @@ void DriveGroup::update_fault(Instant now) noexcept {
   });
   if (anew || needs_start_up(feedback_.fault)) {
     open(now);
+    clearing_ = true;
     return;
   }
   for (WheelDrive& drive : drives_) {
     drive.clear_fault();
   }
+  begin_resetting(now);
+}
+
+void DriveGroup::begin_resetting(Instant now) noexcept {
   resetting_ = true;
   since_ = now;
+}
+
+// Looked at once: a base that somebody pushes afterwards has stopped in time.
+void DriveGroup::judge_quick_stop(Instant now) noexcept {
+  if (quick_stop_judged_ || !synchronous_ || now - quick_stop_since_ <= rates::kStandstillTimeout) {
+    return;
+  }
+  quick_stop_judged_ = true;
+  const auto turning = std::ranges::find_if(
+      drives_, [now](const WheelDrive& drive) { return drive.answers(now) && !drive.encoder().still(); });
+  if (turning != drives_.end()) {
+    const auto wheel = static_cast<Wheel>(turning - drives_.begin());
+    feedback_.fault = {.reason = DriveFaultReason::kNotStill, .node_id = turning->node_id(), .wheel = wheel};
+  }
 }
 
 bool DriveGroup::may_reset(Instant now) noexcept {
@@ -208,6 +235,7 @@ bool DriveGroup::may_reset(Instant now) noexcept {
 void DriveGroup::update_resetting(Instant now) noexcept {
   if (feedback_.fresh && all_off()) {
     resetting_ = false;
+    clearing_ = false;
     voltage_off_ = true;
     feedback_.fault = {};
     enter(GroupState::kReady, now);

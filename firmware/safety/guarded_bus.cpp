@@ -48,6 +48,12 @@ std::size_t GuardedBus::send_part(std::span<const hal::CanFrame> frames, Instant
   return inner_.send(std::span<const hal::CanFrame>(passing_).first(passed), now);
 }
 
+hal::BusCounters GuardedBus::counters() const noexcept {
+  hal::BusCounters counters = inner_.counters();
+  counters.send_refused += refused();
+  return counters;
+}
+
 std::uint64_t GuardedBus::refused(FrameRefusal reason) const noexcept {
   return refused_[static_cast<std::size_t>(reason)];
 }

@@ -16,7 +16,7 @@ namespace ivo::firmware {
 
 /// Frames that FrameRules refuses never reach the inner bus; the others of the same span do, in order, in one call of
 /// it. A refused frame that could move a wheel takes with it all others of the span that could. Receiving, state
-/// and the bus's own counters are the inner bus's. One thread: the loop's.
+/// and the counters are the inner bus's, but for send_refused. One thread: the loop's.
 class GuardedBus final : public hal::CanBus {
  public:
   /// `inner` is the caller's and must outlive this.
@@ -39,7 +39,7 @@ class GuardedBus final : public hal::CanBus {
 
   [[nodiscard]] std::span<const hal::CanFrame> handed_over() const noexcept override { return inner_.handed_over(); }
   [[nodiscard]] hal::BusState state() const noexcept override { return inner_.state(); }
-  [[nodiscard]] hal::BusCounters counters() const noexcept override { return inner_.counters(); }
+  [[nodiscard]] hal::BusCounters counters() const noexcept override;
 
   [[nodiscard]] std::uint64_t refused(FrameRefusal reason) const noexcept;
   [[nodiscard]] std::uint64_t refused() const noexcept;

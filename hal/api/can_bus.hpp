@@ -45,6 +45,7 @@ struct BusCounters {
   std::uint64_t send_dropped = 0;     ///< never handed over: the queue was full or the interface down until
                                       ///< rates::kTransmitAge had passed, or there was no place to keep them
   std::uint64_t send_replaced = 0;    ///< never handed over: a newer frame of the same COB-ID came first
+  std::uint64_t send_refused = 0;     ///< never handed over: a bus that judges what passes it does not let it
   std::uint64_t receive_dropped = 0;  ///< lost before we read it
 };
 

@@ -6,6 +6,7 @@ namespace ivo::hal {
 
 void InterfaceLook::once() {
   handover_.close_discarded();
+  handover_.begin_look();
   const LinkAnswer answer = ask_for_link(name_);
   if (answer.outcome == LinkAnswer::Outcome::kNotTold) {
     return;

@@ -38,9 +38,12 @@ class SocketHandover {
     (void)FileDescriptor(offered_.exchange(socket.release(), std::memory_order_acq_rel));
   }
   void close_discarded() noexcept { (void)FileDescriptor(discarded_.exchange(-1, std::memory_order_acq_rel)); }
+  /// Watcher: before it looks.
+  void begin_look() noexcept { changes_at_look_ = changes_.load(std::memory_order_acquire); }
   void report(const LinkReport& report) noexcept {
     // Two looks may see the same; each is news, or an older guess of the loop's would stay.
-    report_.store(packed(report) | std::uint64_t{++looks_} << 40U, std::memory_order_release);
+    report_.store(packed(report) | std::uint64_t{++looks_} << 40U | std::uint64_t{changes_at_look_} << 56U,
+                  std::memory_order_release);
   }
 
   /// Loop: the socket offered since, or -1; from then on the caller's, which discards the one that it replaces.
@@ -49,6 +52,9 @@ class SocketHandover {
   }
   /// Loop: at most one for each that was taken; the watcher closes it.
   void discard(int socket) noexcept { discarded_.store(socket, std::memory_order_release); }
+  /// Loop: it has seen a change by itself. What a look that began before has seen is older, and is not handed out: the
+  /// next look tells.
+  void note_change() noexcept { changes_.fetch_add(1, std::memory_order_acq_rel); }
   /// Loop: the newest report, when there is one that was not yet taken.
   [[nodiscard]] std::optional<LinkReport> take_report() noexcept {
     const std::uint64_t word = report_.load(std::memory_order_acquire);
@@ -56,7 +62,8 @@ class SocketHandover {
       return std::nullopt;
     }
     taken_report_ = word;
-    return unpacked(word);
+    const bool outdated = static_cast<std::uint8_t>(word >> 56U) != changes_.load(std::memory_order_relaxed);
+    return outdated ? std::nullopt : std::optional(unpacked(word));
   }
 
  private:
@@ -81,8 +88,10 @@ class SocketHandover {
   std::atomic<int> offered_{-1};
   std::atomic<int> discarded_{-1};
   std::atomic<std::uint64_t> report_{0};
-  std::uint32_t looks_ = 0;         // the watcher's
-  std::uint64_t taken_report_ = 0;  // the loop's
+  std::atomic<std::uint8_t> changes_{0};
+  std::uint8_t changes_at_look_ = 0;  // the watcher's
+  std::uint16_t looks_ = 0;           // the watcher's
+  std::uint64_t taken_report_ = 0;    // the loop's
   static_assert(std::atomic<std::uint64_t>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
 };
 

@@ -263,6 +263,7 @@ void SocketCanBus::State::take_report(const LinkReport& report) noexcept {
 void SocketCanBus::State::take_error_frame(const can_frame& frame) noexcept {
   count_error(frame, details.errors);
   if (const std::optional<BusState> told = state_told_by(frame)) {
+    handover.note_change();
     set_controller(*told);
   }
 }
@@ -275,7 +276,8 @@ void SocketCanBus::State::note_lost(std::uint32_t so_far) noexcept {
 void SocketCanBus::State::note_error(int error) noexcept {
   if (error == ENODEV || error == ENXIO) {
     set_link(Link::kRemoved);
-  } else if (error == ENETDOWN && link != Link::kRemoved) {
+  } else if (error == ENETDOWN && link == Link::kUp) {
+    handover.note_change();
     set_link(Link::kDown);
   }
 }

@@ -100,6 +100,27 @@ class MissionOnVcan(unittest.TestCase):
         self.assertEqual(kinds, set(SIZES), "NMT, SYNC, TPDO1, RPDO1, SDO both ways and heartbeats all occur")
 
 
+class FixedMappingOnVcan(unittest.TestCase):
+    """Drives whose PDO mappings cannot be written: they are taken as they are, and the robot drives the same way."""
+
+    def test_the_search_ends_as_with_drives_that_are_mapped(self):
+        with tempfile.TemporaryDirectory(prefix="ivo-hil.", dir="/var/tmp") as scratch:
+            on_vcan, in_process = os.path.join(scratch, "vcan"), os.path.join(scratch, "process")
+            eds = os.path.join(SOURCE_DIR, "config", "eds", "fixed_mapping_drive.eds")
+            done = subprocess.run(
+                [VCAN, os.path.join(HERE, "search_on_vcan"), BUILD_DIR, on_vcan, COURTYARD, "--eds", eds],
+                capture_output=True, text=True, stdin=subprocess.DEVNULL, check=False,
+            )
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            self.assertEqual(ivo("run", COURTYARD, "--yes", "--speed", "max", "--out", in_process).returncode, 0)
+            self.assertEqual(read_json(on_vcan, "report.json"), read_json(in_process, "report.json"))
+            with open(os.path.join(on_vcan, "bus.log"), encoding="ascii") as file:
+                log = file.read()
+            self.assertIn(" 501#", log)
+            self.assertIn(" 381#", log)
+            self.assertNotIn(" 201#", log)
+
+
 class TheCheckItself(unittest.TestCase):
     def test_refuses_what_is_no_valid_canopen(self):
         for frame in ("7FF#11", "6E0#1122", "001#1122", "181#0102", "701#", "601#FF", "080#01"):

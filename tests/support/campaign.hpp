@@ -25,7 +25,8 @@ struct CampaignFigures {
   std::uint64_t frames = 0;
   std::uint64_t certain_events = 0;
   int lives = 0;
-  int starts = 0;  ///< times the wheels were set in motion
+  int shared_lives = 0;  ///< of them, with shared targets at 1 kHz
+  int starts = 0;        ///< times the wheels were set in motion
   int faults = 0;
   std::map<drivers::DriveFaultReason, int> reasons;
   std::map<std::string, int> violations;
@@ -37,7 +38,9 @@ class Campaign {
   using OperatorCommand = firmware::OperatorCommand;
   using Plant = ShadowedBus::Plant;
 
-  explicit Campaign(std::uint64_t seed, Plant plant = nullptr) : random_(seed), plant_(std::move(plant)) {}
+  /// Without a layout each life has one of its own.
+  explicit Campaign(std::uint64_t seed, Plant plant = nullptr, std::optional<PdoLayout> layout = std::nullopt)
+      : random_(seed), plant_(std::move(plant)), layout_(layout) {}
 
   CampaignFigures run(std::uint64_t cycles) {
     while (figures_.cycles < cycles) {
@@ -52,12 +55,16 @@ class Campaign {
    public:
     explicit Life(Campaign& campaign)
         : campaign_(campaign),
-          shadow_(SearchRig::robot()),
           random_(campaign.random_),
+          layout_(campaign.layout_ ? *campaign.layout_
+                  : chance(3) > 0  ? PdoLayout::kOwn
+                                   : PdoLayout::kShared),
+          shadow_(SearchRig::robot(layout_)),
           fault_every_(100U << chance(5)),
           consent_every_(10U << chance(4)) {
       SearchRig::Options options{.object = std::nullopt, .generations = 1, .fault_waits = true};
       options.inputs = &inputs_;
+      options.layout = layout_;
       options.between = [this](hal::CanBus& port) -> hal::CanBus& {
         rough_.emplace(port, random_);
         shadowed_.emplace(*rough_, shadow_);
@@ -77,6 +84,7 @@ class Campaign {
       }
       CampaignFigures& figures = campaign_.figures_;
       ++figures.lives;
+      figures.shared_lives += layout_ == PdoLayout::kShared ? 1 : 0;
       figures.frames += shadow_.frames();
       figures.certain_events += shadow_.certain_events();
       figures.starts += shadow_.starts();
@@ -290,8 +298,9 @@ class Campaign {
     }
 
     Campaign& campaign_;
-    ShadowModel shadow_;
     std::mt19937_64& random_;
+    PdoLayout layout_;
+    ShadowModel shadow_;
     unsigned fault_every_;
     unsigned consent_every_;
     hal::SimDigitalInputs inputs_;
@@ -310,6 +319,7 @@ class Campaign {
 
   std::mt19937_64 random_;
   Plant plant_;
+  std::optional<PdoLayout> layout_;
   CampaignFigures figures_;
 };
 

@@ -46,11 +46,17 @@ class RoughBus final : public hal::CanBus {
     return count;
   }
   std::size_t send(std::span<const hal::CanFrame> frames, Instant now) noexcept override {
-    return inner_.send(frames.first(std::min(frames.size(), roughness.takes)), now);
+    const std::size_t takes = std::min(frames.size(), roughness.takes);
+    dropped_ += frames.size() - takes;
+    return inner_.send(frames.first(takes), now);
   }
   [[nodiscard]] std::span<const hal::CanFrame> handed_over() const noexcept override { return inner_.handed_over(); }
   [[nodiscard]] hal::BusState state() const noexcept override { return inner_.state(); }
-  [[nodiscard]] hal::BusCounters counters() const noexcept override { return inner_.counters(); }
+  [[nodiscard]] hal::BusCounters counters() const noexcept override {
+    hal::BusCounters counters = inner_.counters();
+    counters.send_dropped += dropped_;
+    return counters;
+  }
 
  private:
   bool one_of_thousand(unsigned share) { return share > 0 && random_() % 1000 < share; }
@@ -64,6 +70,7 @@ class RoughBus final : public hal::CanBus {
 
   hal::CanBus& inner_;
   std::mt19937_64& random_;
+  std::uint64_t dropped_ = 0;
 };
 
 class ShadowedBus final : public hal::CanBus {

@@ -29,10 +29,13 @@ class SearchRig {
     std::function<hal::CanBus&(hal::CanBus&)> between{};
     /// With them the robot has an emergency stop (input 0) and a bumper (input 1).
     hal::DigitalInputs* inputs = nullptr;
+    /// kShared: at 1 kHz.
+    PdoLayout layout = PdoLayout::kOwn;
   };
 
   explicit SearchRig(const Options& options)
-      : robot_(robot()), drives_(bus_.port(1), robot_, drivers::SimDrives::TimeFrom::kClock, options.scripts) {
+      : robot_(robot(options.layout)),
+        drives_(bus_.port(1), robot_, drivers::SimDrives::TimeFrom::kClock, options.scripts) {
     prepare(options.generations);
     firmware::LoopSetup setup{.robot = robot_, .start = {1.5, 1.5, 0.0}, .searchers = {}, .object = {}};
     (void)setup.searchers.push_back({.kind = AgentKind::kRobot, .start = {1.5, 1.5}, .speed_mps = 0.5});
@@ -51,18 +54,18 @@ class SearchRig {
     loop_->open(now_);
   }
 
-  /// One cycle, then the drives answer and 2 ms pass.
+  /// One cycle, then the drives answer and a period passes.
   const firmware::LoopStatus& cycle(std::int64_t skipped = 0) {
     loop_->cycle(now_, skipped);
     drives_.update(now_);
-    now_ += rates::kCycle;
-    true_position_.x_m += velocity({1, 1, 1, 1}) * seconds(rates::kCycle);
-    true_position_.y_m += velocity({-1, 1, 1, -1}) * seconds(rates::kCycle);
+    now_ += robot_.cycle;
+    true_position_.x_m += velocity({1, 1, 1, 1}) * seconds(robot_.cycle);
+    true_position_.y_m += velocity({-1, 1, 1, -1}) * seconds(robot_.cycle);
     return loop_->status();
   }
   /// The loop oversleeps; the drives do not.
   void sleep(Duration time) {
-    for (const Instant end = now_ + time; now_ < end; now_ += rates::kCycle) {
+    for (const Instant end = now_ + time; now_ < end; now_ += robot_.cycle) {
       drives_.update(now_);
     }
   }
@@ -70,7 +73,7 @@ class SearchRig {
   void be_late(int periods) {
     for (; periods > 0; --periods) {
       drives_.update(now_);
-      now_ += rates::kCycle;
+      now_ += robot_.cycle;
     }
   }
   void run(Duration time) {
@@ -122,9 +125,11 @@ class SearchRig {
   [[nodiscard]] Instant now() const { return now_; }
 
   /// The robot of every rig.
-  static Robot robot() {
+  static Robot robot(PdoLayout layout = PdoLayout::kOwn) {
     Robot robot;
     robot.name = "test base";
+    robot.pdo_layout = layout;
+    robot.cycle = layout == PdoLayout::kShared ? rates::kShortestCycle : rates::kCycle;
     for (std::size_t i = 0; i < robot.drives.size(); ++i) {
       robot.drives[i].node_id = static_cast<std::uint8_t>(i + 1);
       robot.drives[i].sign = i % 2 == 0 ? 1 : -1;

@@ -70,9 +70,12 @@ class ShadowModel {
         certain("another master");
       } else if (function == 0x080 && (frame.size != 8 || frame.data[0] != 0 || frame.data[1] != 0)) {
         certain("emergency");
-      } else if (function == shadow::kFeedback && frame.size == 6) {
-        drives_[i].statusword = shadow::word_in(frame);
-        drives_[i].feedback_at = now_;
+      } else if (const int number = shadow::tpdo_number(function); number > 0 && frame.size == 6) {
+        drives_[i].heard_now[static_cast<std::size_t>(number)] = true;
+        if (number == drives_[i].feedback) {
+          drives_[i].statusword = shadow::word_in(frame);
+          drives_[i].feedback_at = now_;
+        }
       } else if (function == 0x700 && frame.size == 1) {
         hear_heartbeat(drives_[i], frame.data[0] & 0x7F);
       }
@@ -84,6 +87,11 @@ class ShadowModel {
     Batch batch;
     for (const hal::CanFrame& frame : frames) {
       look_at(frame, batch);
+    }
+    for (const Drive& drive : drives_) {  // a word that is not said again is as it was
+      batch.enabling += batch.commands > 0 && drive.told_to_run() ? 1 : 0;
+      batch.targets += batch.commands > 0 && drive.target != 0 ? 1 : 0;
+      expect(batch.commands == 0 || drive.target == 0 || drive.told_to_run(), "a target without power");
     }
     judge(batch);
     unsent_ = batch.orders > 0 && batch.syncs == 0 ? 0 : unsent_;  // start-up anew
@@ -172,13 +180,16 @@ class ShadowModel {
   }
 
   void check_certain_states() {
+    // An operator's clearing may start the drives up first; that one of them was in fault shows only then.
+    const bool being_cleared = mode_ == Mode::kStarting && last_clear_ && now_ - *last_clear_ <= shadow::ms(5000);
     for (Drive& drive : drives_) {
+      drive.choose_feedback();
       if (!armed_) {
         drive.statusword = 0;
         drive.feedback_at = now_;
         drive.heartbeat_at.reset();
       }
-      if (drive.faulty()) {
+      if (drive.faulty() && !being_cleared) {
         certain("drive in fault");
       }
       if (moving_before_ && !drive.enabled()) {
@@ -213,7 +224,12 @@ class ShadowModel {
           look_at_request(frame);
         } else if ((frame.id & 0x7F) == node && shadow::is_rpdo(frame.id & 0x780)) {
           batch.sync_first = batch.sync_first && batch.syncs == 1;
-          look_at_command(frame, i, batch);
+          if (robot_.pdo_layout == PdoLayout::kShared) {
+            look_at_shared(frame, i, batch);
+          } else {
+            look_at_word(shadow::word_in(frame), drives_[i]);
+            look_at_target(shadow::target_in(frame, 2), i, batch);
+          }
         }
       }
     }
@@ -227,25 +243,36 @@ class ShadowModel {
     expect(!writes || zero || (object != 0x6040 && object != 0x60FF), "motion by SDO");
   }
 
-  void look_at_command(const hal::CanFrame& frame, std::size_t i, Batch& batch) {
-    Drive& drive = drives_[i];
-    const std::uint16_t word = shadow::word_in(frame);
-    const std::int32_t target = shadow::target_in(frame);
-    ++batch.commands;
-    const bool enables = (word & 0x8F) == 0x0F;
-    batch.enabling += enables ? 1 : 0;
-    batch.targets += target != 0 ? 1 : 0;
-    expect(target == 0 || enables, "a target without power");
+  /// RPDO1 {6040h}; RPDO2 of the front left and of the rear left drive {60FFh, 60FFh}: of it and of the right one.
+  void look_at_shared(const hal::CanFrame& frame, std::size_t i, Batch& batch) {
+    if ((frame.id & 0x780) == 0x200 && frame.size == 2) {
+      look_at_word(shadow::word_in(frame), drives_[i]);
+    } else if ((frame.id & 0x780) == 0x300 && frame.size == 8 && i % 2 == 0) {
+      look_at_target(shadow::target_in(frame, 0), i, batch);
+      look_at_target(shadow::target_in(frame, 4), i + 1, batch);
+    } else {
+      expect(false, "a frame of no layout");
+    }
+  }
+
+  void look_at_word(std::uint16_t word, Drive& drive) {
     if ((word & 0x80) != 0 && (drive.word & 0x80) == 0) {
       expect(last_clear_ && now_ - *last_clear_ <= shadow::ms(5000), "a fault reset that nobody asked for");
     }
+    drive.word = word;
+  }
+
+  void look_at_target(std::int32_t target, std::size_t i, Batch& batch) {
+    Drive& drive = drives_[i];
+    ++batch.commands;
     const DriveParameters& parameters = robot_.drives[i];
     const double rim = target / (parameters.velocity_per_radps * parameters.gear_ratio) * robot_.base.wheel_radius_m;
     const double step = std::abs(rim) - std::abs(drive.rim_mps);
+    const double cycles_s = 2.0 * seconds(robot_.cycle);  // of a late one no more
     expect(std::abs(rim) <= 1.001 * rim_of(kSearchSpeed_mps, robot_.limits.max_turn_radps), "faster than the search");
-    expect(step <= 1.5 * 0.004 * rim_of(robot_.limits.max_accel_mps2, robot_.limits.max_turn_accel_radps2),
+    expect(step <= 1.5 * cycles_s * rim_of(robot_.limits.max_accel_mps2, robot_.limits.max_turn_accel_radps2),
            "a jump of the target");
-    drive.word = word;
+    drive.target = target;
     drive.rim_mps = rim;
   }
 

@@ -20,18 +20,16 @@ std::array<drivers::WheelEncoder, kWheels> encoders_of(const Robot& robot) noexc
           drivers::WheelEncoder(robot.drives[2], radius_m), drivers::WheelEncoder(robot.drives[3], radius_m)};
 }
 
-drivers::GroupChannels channels_of(const Robot& robot) noexcept {
-  drivers::GroupChannels channels;
-  for (std::size_t i = 0; i < channels.size(); ++i) {
-    channels[i] = drivers::standard_channels(robot, static_cast<Wheel>(i));
-  }
-  return channels;
+/// Which PDO of the node this is, by the predefined connection set; 0: none. `first` is the COB-ID of its PDO 1.
+int pdo_number(std::uint16_t id, std::uint16_t first) noexcept {
+  const int above = id - first;
+  return above >= 0 && above % 0x100 == 0 && above / 0x100 < cob_id::kPdos ? above / 0x100 + 1 : 0;
 }
 
 }  // namespace
 
 BusListener::BusListener(const Robot& robot) noexcept
-    : robot_(robot), channels_(channels_of(robot)), encoders_(encoders_of(robot)) {}
+    : robot_(robot), encoders_(encoders_of(robot)) {}
 
 void BusListener::on_frame(const hal::ReceivedFrame& received) noexcept {
   const hal::CanFrame& frame = received.frame;
@@ -68,19 +66,31 @@ void BusListener::take(std::size_t wheel, const hal::ReceivedFrame& received) no
     node.emergency = emergency;
     node.emergency_at = received.at;
     ++node.emergencies;
-  } else if (frame.id == channels_[wheel].feedback_id) {
-    if (const auto status = drivers::parse_status(frame)) {
-      node.status = status;
-      node.status_at = received.at;
-      encoders_[wheel].sample(status->position, received.at);
-    }
+  } else {
+    take_status(wheel, received);
   }
+}
+
+void BusListener::take_status(std::size_t wheel, const hal::ReceivedFrame& received) noexcept {
+  HeardNode& node = nodes_[wheel];
+  const int number = pdo_number(received.frame.id, cob_id::tpdo1(robot_.drives[wheel].node_id));
+  const auto status = drivers::parse_status(received.frame);
+  if (number == 0 || !status || (node.status && number > node.status_tpdo)) {
+    return;
+  }
+  if (number != node.status_tpdo) {
+    encoders_[wheel].rebase();  // what another PDO carried may have been something else
+  }
+  node.status = status;
+  node.status_tpdo = number;
+  node.status_at = received.at;
+  encoders_[wheel].sample(status->position, received.at);
 }
 
 void BusListener::take_targets(const hal::CanFrame& frame) noexcept {
   if (robot_.pdo_layout == PdoLayout::kOwn) {
     for (std::size_t i = 0; i < nodes_.size() && frame.size == drivers::kPdoBytes; ++i) {
-      if (frame.id == channels_[i].command_id) {
+      if (pdo_number(frame.id, cob_id::rpdo1(robot_.drives[i].node_id)) != 0) {
         told(i, static_cast<std::int32_t>(drivers::load<std::uint32_t>(std::span(frame.data).subspan(2))));
       }
     }
@@ -88,7 +98,7 @@ void BusListener::take_targets(const hal::CanFrame& frame) noexcept {
   }
   const auto pair = drivers::parse_target_pair(frame);
   for (std::size_t i = 0; i < nodes_.size() && pair; ++i) {
-    if (frame.id == channels_[i].targets_id) {
+    if (pdo_number(frame.id, cob_id::rpdo1(robot_.drives[drivers::first_of_pair(i)].node_id)) != 0) {
       told(i, i == drivers::first_of_pair(i) ? pair->first : pair->second);
     }
   }

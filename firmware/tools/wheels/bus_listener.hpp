@@ -21,7 +21,9 @@ struct HeardNode {
   std::optional<drivers::NmtState> state;
   Instant heartbeat_at{};  ///< the last, boot-up too
   std::uint64_t boot_ups = 0;
-  std::optional<drivers::DriveStatus> status;  ///< of its TPDO1, if that is as the controller maps it
+  /// Of the first of its TPDOs that is as long as {6041h, 6064h}: a drive whose mappings are fixed has not TPDO1 so.
+  std::optional<drivers::DriveStatus> status;
+  int status_tpdo = 0;  ///< its number; 0: none yet
   Instant status_at{};
   std::optional<double> told_radps;  ///< by the controller, at the wheel, in the robot's PDO layout
   std::optional<drivers::Emergency> emergency;
@@ -58,11 +60,11 @@ class BusListener {
 
  private:
   void take(std::size_t wheel, const hal::ReceivedFrame& received) noexcept;
+  void take_status(std::size_t wheel, const hal::ReceivedFrame& received) noexcept;
   void take_targets(const hal::CanFrame& frame) noexcept;
   void told(std::size_t wheel, std::int32_t target) noexcept;
 
   Robot robot_;
-  drivers::GroupChannels channels_;
   std::array<HeardNode, kWheels> nodes_;
   std::array<drivers::WheelEncoder, kWheels> encoders_;
   BusTraffic traffic_;

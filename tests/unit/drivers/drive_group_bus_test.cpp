@@ -65,6 +65,21 @@ TEST(DriveGroupBus, AFullQueueThatOnlyLosesTheHeartbeatStopsTheDrives) {
   EXPECT_FALSE(any_enabled(rig));
 }
 
+TEST(DriveGroupBus, AFrameOfOursThatTheBusRefusesStopsAllFourAtOnceAndIsSaidSo) {
+  Rig rig;
+  ASSERT_TRUE(rig.drive_at(5.0));
+  rig.narrow.refused += 4;
+  EXPECT_EQ(rig.cycle().state, GroupState::kFault);
+  EXPECT_EQ(describe(rig.feedback.fault),
+            "4 frames of this controller were refused at the last door before the bus: a fault of the program");
+  expect_stopped_command(rig);
+  rig.run(milliseconds(500));
+  EXPECT_TRUE(all_at_rest(rig));
+  rig.enable = false;
+  rig.group.reset_fault();
+  EXPECT_TRUE(rig.run_until(GroupState::kReady)) << describe(rig.feedback.fault);
+}
+
 TEST(DriveGroupBus, MovesAgainAfterANewStartUpWhenTheQueueIsFree) {
   Rig rig;
   ASSERT_TRUE(rig.drive_at(5.0));

@@ -174,6 +174,67 @@ TEST(DriveGroup, AWheelThatDoesNotComeToRestIsNamedAndLosesItsPower) {
   EXPECT_EQ(controlword_of(rig.last_command(3)), 0x00);
 }
 
+TEST(DriveGroup, ADriveThatAQuickStopDoesNotSlowDownIsNamedOnceItHadItsTime) {
+  Rig rig;
+  ASSERT_TRUE(rig.drive_at(5.0));
+  (void)rig.drives.drive(Wheel::kRearLeft).script().events.push_back({.fault = SimFault::kEndlessStop, .on = true});
+  rig.group.fail({.reason = DriveFaultReason::kStopInput, .code = 2}, rig.clock.now());
+  rig.run(rates::kStandstillTimeout - milliseconds(10));
+  EXPECT_EQ(describe(rig.feedback.fault), "bumper 2 touched");
+  EXPECT_FALSE(all_at_rest(rig));
+  rig.run(milliseconds(14));
+  EXPECT_EQ(describe(rig.feedback.fault), "drive 3 (rear left): wheel not at rest in time after a stop");
+  rig.run(milliseconds(1000));
+  EXPECT_TRUE(all_at_rest(rig)) << "without voltage it coasts";
+  rig.enable = false;
+  rig.group.reset_fault();
+  EXPECT_TRUE(rig.run_until(GroupState::kReady)) << describe(rig.feedback.fault);
+}
+
+TEST(DriveGroup, ADriveInFaultIsResetTooWhenAllAreStartedUpAnew) {
+  Rig rig;
+  ASSERT_TRUE(rig.drive_at(5.0));
+  (void)rig.drives.drive(Wheel::kFrontLeft).script().events.push_back({.fault = SimFault::kFault, .on = true});
+  rig.drives.drive(Wheel::kRearLeft).script().reboot_at = rig.clock.now();
+  ASSERT_TRUE(rig.run_until(GroupState::kFault));
+  rig.run(milliseconds(1500));
+  rig.enable = false;
+  rig.group.reset_fault();
+  ASSERT_TRUE(rig.run_until(GroupState::kReady)) << describe(rig.feedback.fault);
+  EXPECT_FALSE(any_enabled(rig));
+  rig.enable = true;
+  EXPECT_TRUE(rig.run_until(GroupState::kEnabled)) << "cleared once is enough";
+}
+
+TEST(DriveGroup, ADriveThatStaysInFaultAfterANewStartUpIsNamed) {
+  Rig rig;
+  ASSERT_TRUE(rig.drive_at(5.0));
+  (void)rig.drives.drive(Wheel::kFrontLeft).script().events.push_back({.fault = SimFault::kFaultAgain, .on = true});
+  rig.drives.drive(Wheel::kRearLeft).script().reboot_at = rig.clock.now();
+  ASSERT_TRUE(rig.run_until(GroupState::kFault));
+  rig.run(milliseconds(1500));
+  rig.enable = false;
+  rig.group.reset_fault();
+  ASSERT_TRUE(rig.run_until(GroupState::kBooting));
+  ASSERT_TRUE(rig.run_until(GroupState::kFault));
+  EXPECT_EQ(rig.feedback.fault.node_id, 1) << describe(rig.feedback.fault);
+}
+
+TEST(DriveGroup, AWheelThatStoppedInTimeAndIsPushedAfterwardsIsNoNewFault) {
+  Rig rig;
+  ASSERT_TRUE(rig.drive_at(5.0));
+  rig.group.fail({.reason = DriveFaultReason::kStopInput, .code = 2}, rig.clock.now());
+  rig.run(rates::kStandstillTimeout + milliseconds(10));
+  rig.drives.drive(Wheel::kRearLeft).script().feedback_lost_from = Instant{};
+  for (int i = 0; i < 200; ++i) {
+    hal::CanFrame pushed{.id = 0x183, .size = 6, .data = {0x50, 0x02}};
+    store(std::span(pushed.data).subspan(2), static_cast<std::uint32_t>(100 * i));
+    rig.inject(pushed);
+    rig.cycle();
+  }
+  EXPECT_EQ(describe(rig.feedback.fault), "bumper 2 touched");
+}
+
 TEST(DriveGroup, DrivesStopByThemselvesWhenTheMasterFallsSilent) {
   Rig rig;
   ASSERT_TRUE(rig.drive_at(5.0));

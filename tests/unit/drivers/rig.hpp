@@ -45,10 +45,12 @@ class NarrowBus final : public hal::CanBus {
   [[nodiscard]] hal::BusCounters counters() const noexcept override {
     hal::BusCounters counters = inner_.counters();
     counters.send_dropped += dropped_;
+    counters.send_refused += refused;
     return counters;
   }
 
   std::size_t room = 1000;
+  std::uint64_t refused = 0;  ///< as a bus that judges frames would count
 
  private:
   hal::CanBus& inner_;

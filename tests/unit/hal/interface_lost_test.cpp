@@ -137,7 +137,8 @@ TEST_F(InterfaceLostTest, AWatchBringsTheBusBackWithoutAWordFromTheLoop) {
 
 TEST_F(InterfaceLostTest, EndsAWaitInLockStepAtOnceAndComesBackInLockStep) {
   LockStep::Options options;
-  ASSERT_TRUE(options.answer_ids.push_back(0x181));
+  ASSERT_TRUE(options.answers.push_back({}));
+  ASSERT_TRUE(options.answers.back().push_back(0x181));
   options.patience = std::chrono::minutes(5);  // a test that waits in vain hangs
   LockStep step(bus(), options);
   std::array<ReceivedFrame, 8> frames;

@@ -8,7 +8,7 @@ namespace ivo::firmware::bench {
 /// Receive and send of one full cycle through the socket: time, and system calls as the kernel counts them.
 void cycle_cost(const Options& options, Sheet& sheet);
 
-/// Frames a second from socket to socket, beside cangen and candump on the same interface.
+/// Frames a second from process to process, beside cangen and candump on the same interface.
 void frames_a_second(const Options& options, Sheet& sheet);
 
 /// What the robot's layout promises, and what a listener counts while it drives.

@@ -161,6 +161,20 @@ std::vector<FaultRow> faults_of_bus() {
        .detected_within = kAtOnce,
        .provoke = [](FaultRig& rig) { rig.each_cycle([](FaultRig& each) { each.injector().flood(200, 0x000, {}); }); }},
       {.number = 13,
+       .name = "a babbling node that lets no other frame through",
+       .by = "as before, and only 000h reaches the drives",
+       .outcome = Outcome::kStopsBus,
+       .says = "another master on the bus sent COB-ID 000h; expected none but this controller",
+       .detected_within = kAtOnce,
+       .provoke =
+           [](FaultRig& rig) {
+             rig.meddle().incoming = [](std::vector<hal::CanFrame>& frames) {
+               std::erase_if(frames, [](const hal::CanFrame& frame) { return frame.id != 0x000; });
+             };
+             rig.each_cycle([](FaultRig& each) { each.injector().flood(200, 0x000, {}); });
+           },
+       .mend = [](FaultRig& rig) { rig.meddle().incoming = nullptr; }},
+      {.number = 13,
        .name = "a babbling node: \"no error any more\" as fast as it goes",
        .by = "100 of 084h a cycle by a third socket",
        .says = "bus flooded: * frames in one cycle",

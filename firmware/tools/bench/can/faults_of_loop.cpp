@@ -27,7 +27,7 @@ FaultRow wrong_command(const char* name, const char* says, WrongCommand wrong) {
           .name = name,
           .by = "put at the doors by hand",
           .says = says,
-          .detected_within = wrong == WrongCommand::kHugePastTheGate ? 7 * rates::kCycle : Duration::zero(),
+          .detected_within = wrong == WrongCommand::kHugePastTheGate ? kAtOnce : Duration::zero(),
           .provoke = nullptr,
           .instead = [wrong] { return try_command(wrong); }};
 }
@@ -89,8 +89,7 @@ std::vector<FaultRow> faults_of_loop() {
       wrong_command("an infinite twist", "command not finite", WrongCommand::kInfinite),
       wrong_command("a twist of 1e9 m/s", "too fast", WrongCommand::kHuge),
       wrong_command("wheel speeds of 1e9 m/s past the first door",
-                    "commands do not get out: no other node acknowledges them, the transmit queue is full, or the "
-                    "interface is down",
+                    "* frames of this controller were refused at the last door before the bus: a fault of the program",
                     WrongCommand::kHugePastTheGate),
   };
 }

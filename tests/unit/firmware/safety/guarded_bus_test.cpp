@@ -298,6 +298,7 @@ TEST_F(GuardedBusTest, SendsTheGoodFramesOfASpanInOrderAndNoOthers) {
   EXPECT_EQ(bus_.refused(FrameRefusal::kMotionNotPermitted), 1U);
   EXPECT_EQ(bus_.refused(FrameRefusal::kNotListed), 2U);
   EXPECT_EQ(bus_.last_refused_id(), 0x100);
+  EXPECT_EQ(bus_.counters().send_refused, 3U);
 }
 
 TEST_F(GuardedBusTest, SendsASpanWithoutRefusalsAtOnce) {

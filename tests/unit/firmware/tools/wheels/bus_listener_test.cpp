@@ -91,6 +91,29 @@ TEST(BusListener, TakesNoTargetFromAFrameOfTheOtherLayout) {
   }
 }
 
+TEST(BusListener, HearsADriveWhoseMappingsAreFixed) {
+  Robot robot = geared_robot();
+  BusListener listener(robot);
+  const double units = TurnMeasure::scale_of(robot.drives[0]).units_per_radps;
+  const auto hear = [&](std::uint16_t id, std::uint8_t size, std::array<std::uint8_t, 8> data) {
+    listener.on_frame({.frame = {.id = id, .size = size, .data = data}, .at = Instant{}});
+  };
+  hear(0x181, 2, {0x37, 0x12});                            // {6041h}
+  hear(0x481, 6, {0x37, 0x12, 0x00, 0x00, 0x00, 0x7F});    // {6041h, 606Ch}
+  hear(0x381, 6, {0x40, 0x12, 0x10, 0x00, 0x00, 0x00});    // {6041h, 6064h}
+  hear(0x481, 6, {0x37, 0x12, 0x00, 0x00, 0x00, 0x7F});
+  const HeardNode& node = listener.node(Wheel::kFrontLeft);
+  ASSERT_TRUE(node.status.has_value());
+  EXPECT_EQ(node.status->statusword, 0x1240);
+  EXPECT_EQ(node.status->position, 0x10);
+  EXPECT_EQ(node.status_tpdo, 3);
+  EXPECT_EQ(listener.angle_rad(Wheel::kFrontLeft), 0.0) << "no travel between two PDOs of different content";
+  const auto target = static_cast<std::int32_t>(std::lround(2.0 * units));
+  listener.on_frame(
+      {.frame = drivers::command_frame(0x501, {.controlword = 0x0F, .target_velocity = target}), .at = Instant{}});
+  EXPECT_NEAR(node.told_radps.value_or(0.0), 2.0, 0.001);
+}
+
 TEST(BusListener, SaysEachChangeOnceAndInWords) {
   ListeningRig rig;
   rig.go(1s, false);
