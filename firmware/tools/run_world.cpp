@@ -101,7 +101,8 @@ class LockStepWorld final : public RunWorld {
     hal::LockStep::Options options;
     for (const DriveParameters& drive : robot.drives) {
       (void)options.answers.push_back({});
-      for (std::uint8_t number = 1; number <= drivers::cob_id::kPdos; ++number) {  // one whose mappings are fixed answers by another than the first
+      for (std::uint8_t number = 1; number <= drivers::cob_id::kPdos;
+           ++number) {  // one whose mappings are fixed answers by another than the first
         (void)options.answers.back().push_back(drivers::cob_id::tpdo(number, drive.node_id));
       }
     }

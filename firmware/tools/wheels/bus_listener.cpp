@@ -28,8 +28,7 @@ int pdo_number(std::uint16_t id, std::uint16_t first) noexcept {
 
 }  // namespace
 
-BusListener::BusListener(const Robot& robot) noexcept
-    : robot_(robot), encoders_(encoders_of(robot)) {}
+BusListener::BusListener(const Robot& robot) noexcept : robot_(robot), encoders_(encoders_of(robot)) {}
 
 void BusListener::on_frame(const hal::ReceivedFrame& received) noexcept {
   const hal::CanFrame& frame = received.frame;

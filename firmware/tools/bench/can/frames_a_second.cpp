@@ -24,8 +24,8 @@ constexpr std::uint16_t kFirstId = 0x181;
 constexpr Duration kPatience = std::chrono::seconds(3);
 constexpr int kReceiveBytes = 32 << 20;
 
-/// The receiver's process: first in line for the processor where that is allowed, as candump below. Its exit status is 0
-/// when every frame came.
+/// The receiver's process: first in line for the processor where that is allowed, as candump below. Its exit status is
+/// 0 when every frame came.
 [[noreturn]] void receive_all(hal::SocketCanBus& to, std::size_t frames) {
   const sched_param first{.sched_priority = 1};
   (void)sched_setscheduler(0, SCHED_FIFO, &first);

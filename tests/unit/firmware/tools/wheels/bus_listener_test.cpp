@@ -98,9 +98,9 @@ TEST(BusListener, HearsADriveWhoseMappingsAreFixed) {
   const auto hear = [&](std::uint16_t id, std::uint8_t size, std::array<std::uint8_t, 8> data) {
     listener.on_frame({.frame = {.id = id, .size = size, .data = data}, .at = Instant{}});
   };
-  hear(0x181, 2, {0x37, 0x12});                            // {6041h}
-  hear(0x481, 6, {0x37, 0x12, 0x00, 0x00, 0x00, 0x7F});    // {6041h, 606Ch}
-  hear(0x381, 6, {0x40, 0x12, 0x10, 0x00, 0x00, 0x00});    // {6041h, 6064h}
+  hear(0x181, 2, {0x37, 0x12});                          // {6041h}
+  hear(0x481, 6, {0x37, 0x12, 0x00, 0x00, 0x00, 0x7F});  // {6041h, 606Ch}
+  hear(0x381, 6, {0x40, 0x12, 0x10, 0x00, 0x00, 0x00});  // {6041h, 6064h}
   hear(0x481, 6, {0x37, 0x12, 0x00, 0x00, 0x00, 0x7F});
   const HeardNode& node = listener.node(Wheel::kFrontLeft);
   ASSERT_TRUE(node.status.has_value());
