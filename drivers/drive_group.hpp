@@ -54,11 +54,11 @@ struct GroupFeedback {
 /// Motion is earned: enable must have been false once since open(), stop() or a fault before true counts, and targets
 /// other than zero go out only while all four are Operation Enabled. Any drive's fault, emergency, reboot, silence,
 /// erratic feedback, twin or unasked change of state latches kFault for all four in the same update, and write then
-/// carries the stop. So do a lost or flooded bus, lost frames, another master, a frame of ours that the bus refuses, and
-/// kUnsentWrites writes in a row that it did not take whole. Being powered in kReady is forgiven for rates::kUnaskedPowerTimeout. A drive whose TPDO1
-/// does not come may have lost SYNC, and then no RPDO acts on it: in kFault it is told to leave NMT state Operational
-/// too, which makes it stop by 6007h. So is one that still has power when quick stop and voltage off had their time,
-/// and then our heartbeat ends as well.
+/// carries the stop. So do a lost or flooded bus, lost frames, another master, a frame of ours that the bus refuses,
+/// and kUnsentWrites writes in a row that it did not take whole. Being powered in kReady is forgiven for
+/// rates::kUnaskedPowerTimeout. A drive whose TPDO1 does not come may have lost SYNC, and then no RPDO acts on it: in
+/// kFault it is told to leave NMT state Operational too, which makes it stop by 6007h. So is one that still has power
+/// when quick stop and voltage off had their time, and then our heartbeat ends as well.
 class DriveGroup {
  public:
   /// `bus` outlives this. Silent until open().
