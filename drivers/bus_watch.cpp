@@ -34,8 +34,9 @@ void BusWatch::on_frame(const hal::CanFrame& frame) noexcept {
 }
 
 void BusWatch::update(const hal::CanBus& bus, bool synchronous) noexcept {
-  const std::uint64_t lost = bus.counters().receive_dropped;
-  const std::uint64_t refused = bus.counters().send_refused;
+  const hal::BusCounters counters = bus.counters();
+  const std::uint64_t lost = counters.receive_dropped;
+  const std::uint64_t refused = counters.send_refused;
   const hal::BusState state = bus.state();
   const bool passive = state == hal::BusState::kPassive && synchronous;
   flooded_cycles_ = frames_ > kFloodFrames ? flooded_cycles_ + 1 : 0;
@@ -44,7 +45,7 @@ void BusWatch::update(const hal::CanBus& bus, bool synchronous) noexcept {
   } else if (foreign_.reason != DriveFaultReason::kNone) {
     fault_ = foreign_;
   } else if (refused != refused_before_) {
-    fault_ = fault_of(DriveFaultReason::kCommandRefused, refused - refused_before_);
+    fault_ = fault_of(DriveFaultReason::kFrameRefused, refused - refused_before_);
   } else if (flooded_cycles_ >= kFloodCycles) {
     fault_ = fault_of(DriveFaultReason::kBusFlooded, frames_);
   } else if (lost != lost_before_) {

@@ -15,14 +15,13 @@ bool needs_start_up(const DriveFault& fault) noexcept {
     case DriveFaultReason::kFeedbackLost:
     case DriveFaultReason::kFeedbackErratic:
     case DriveFaultReason::kDuplicateNodeId:
-    case DriveFaultReason::kCommandRefused:
     case DriveFaultReason::kCommandsNotSent:
+    case DriveFaultReason::kFrameRefused:
     case DriveFaultReason::kBusLost:
     case DriveFaultReason::kFramesLost:
     case DriveFaultReason::kBusFlooded:
     case DriveFaultReason::kForeignMaster:
     case DriveFaultReason::kCycleLate:
-    case DriveFaultReason::kNotStill:  // in the place of what the stop was for, which may have been one of these
       return true;
     case DriveFaultReason::kEmergency:
       return (fault.code & 0xFF00) == 0x8100;  // of communication (CiA 301, table 26): it may have left Operational
@@ -31,6 +30,7 @@ bool needs_start_up(const DriveFault& fault) noexcept {
     case DriveFaultReason::kLeftOperationEnabled:
     case DriveFaultReason::kUnaskedState:
     case DriveFaultReason::kStateChangeTimedOut:
+    case DriveFaultReason::kNotStill:
     case DriveFaultReason::kFaultResetFailed:
     case DriveFaultReason::kVoltageMissing:
     case DriveFaultReason::kEncoderStuck:

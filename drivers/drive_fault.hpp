@@ -34,7 +34,6 @@ enum class DriveFaultReason : std::uint8_t {
   kWheelNotFollowing,     ///< the wheel turns otherwise than told: blocked, driven, or its belt slips; code: mm/s
   kResetLimit,            ///< faults come back after each reset; code: resets that were tried
   // Of no drive.
-  kCommandRefused,   ///< a bus that judges frames let some of ours not pass; code: how many
   kCommandsNotSent,  ///< the bus did not take kUnsentWrites writes in a row whole
   kBusLost,          ///< code: hal::BusState
   kFramesLost,       ///< the receive queue overflowed; code: frames
@@ -43,6 +42,7 @@ enum class DriveFaultReason : std::uint8_t {
   kCycleLate,        ///< our own cycle; code: periods skipped
   kWheelSlip,        ///< the wheels turn as no body can move; code: residual in mm/s
   kStopInput,        ///< emergency stop or bumper; code: number of the input, or kStopInputsSilent
+  kFrameRefused,     ///< a bus that judges frames did not let some of ours pass; code: how many
 };
 /// Code of kStopInput: the inputs were not read for too long, which counts as pressed.
 inline constexpr std::uint32_t kStopInputsSilent = 255;
@@ -54,6 +54,8 @@ struct DriveFault {
   Wheel wheel = Wheel::kFrontLeft;
   const char* step = "";  ///< static; of start-up, else empty
   std::uint32_t code = 0;
+  std::uint8_t turning_node_id = 0;  ///< a wheel that still turned when the quick stop had had its time; 0: none
+  Wheel turning_wheel = Wheel::kFrontLeft;
 };
 
 /// True when only a new start-up of the drives can clear `fault`: what the drive was told may be forgotten.

@@ -30,6 +30,10 @@ std::string_view name_of(Wheel wheel) noexcept {
   return "unknown wheel";
 }
 
+std::string drive_of(std::uint8_t node_id, Wheel wheel) {
+  return "drive " + std::to_string(node_id) + " (" + std::string(name_of(wheel)) + ")";
+}
+
 std::string reason_of(const DriveFault& fault) {
   switch (fault.reason) {
     case DriveFaultReason::kNone:
@@ -66,9 +70,6 @@ std::string reason_of(const DriveFault& fault) {
       return "wheel not at rest in time after a stop";
     case DriveFaultReason::kFaultResetFailed:
       return "fault could not be reset (statusword " + hexadecimal(fault.code, 4) + ")";
-    case DriveFaultReason::kCommandRefused:
-      return std::to_string(fault.code) +
-             " frames of this controller were refused at the last door before the bus: a fault of the program";
     case DriveFaultReason::kCommandsNotSent:
       return "commands do not get out: no other node acknowledges them, the transmit queue is full, or the interface "
              "is down";
@@ -104,6 +105,9 @@ std::string reason_of(const DriveFault& fault) {
         return "emergency stop and bumpers are not read any more, which counts as pressed";
       }
       return fault.code == 0 ? "emergency stop pressed" : "bumper " + std::to_string(fault.code) + " touched";
+    case DriveFaultReason::kFrameRefused:
+      return "the last door before the bus refused what this controller was to send (" + std::to_string(fault.code) +
+             " of its frames): a fault of the program";
   }
   return "unknown fault";
 }
@@ -111,12 +115,16 @@ std::string reason_of(const DriveFault& fault) {
 }  // namespace
 
 std::string describe(const DriveFault& fault) {
-  if (fault.reason == DriveFaultReason::kNone || fault.node_id == 0) {
-    return reason_of(fault);
+  std::string text = reason_of(fault);
+  if (fault.reason != DriveFaultReason::kNone && fault.node_id != 0) {
+    const std::string step = *fault.step == '\0' ? "" : " failed at \"" + std::string(fault.step) + "\"";
+    text = drive_of(fault.node_id, fault.wheel) + step + ": " + text;
   }
-  const std::string drive = "drive " + std::to_string(fault.node_id) + " (" + std::string(name_of(fault.wheel)) + ")";
-  const std::string step = *fault.step == '\0' ? "" : " failed at \"" + std::string(fault.step) + "\"";
-  return drive + step + ": " + reason_of(fault);
+  if (fault.turning_node_id != 0) {
+    text += "; " + drive_of(fault.turning_node_id, fault.turning_wheel) +
+            " still turned when the quick stop had had its time";
+  }
+  return text;
 }
 
 }  // namespace ivo::drivers

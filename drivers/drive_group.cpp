@@ -44,7 +44,6 @@ void DriveGroup::open(Instant now) noexcept {
   unsent_writes_ = 0;
   disobeyed_ = false;
   reset_asked_ = false;
-  clearing_ = false;
   resetting_ = false;
   feedback_.fault = {};
 }
@@ -181,7 +180,7 @@ void DriveGroup::follow(Instant now, bool enable) noexcept {
 
 void DriveGroup::begin_stop(Instant now) noexcept {
   enter(GroupState::kStopping, now);
-  quick_stop_since_ = now;
+  begin_quick_stop(now);
 }
 
 void DriveGroup::enter(GroupState state, Instant now) noexcept {
@@ -193,9 +192,6 @@ void DriveGroup::enter(GroupState state, Instant now) noexcept {
 std::uint16_t DriveGroup::controlword_for(const WheelDrive& drive, Instant now) const noexcept {
   switch (state_) {
     case GroupState::kBooting:
-      if (resetting_ && drive.in_fault()) {
-        return controlword::kFaultReset;
-      }
       break;
     case GroupState::kReady:
       return off_word(drive);
@@ -207,7 +203,8 @@ std::uint16_t DriveGroup::controlword_for(const WheelDrive& drive, Instant now) 
       return quick_stop_over(now) ? off_word(drive) : controlword::kQuickStop;
     case GroupState::kFault:
       if (resetting_) {
-        return drive.in_fault() ? controlword::kFaultReset : controlword::kDisableVoltage;
+        // Not yet in the fault's reaction: the edge would be lost.
+        return drive.power_state() == PowerState::kFault ? controlword::kFaultReset : controlword::kDisableVoltage;
       }
       return quick_stop_over(now) ? controlword::kDisableVoltage : controlword::kQuickStop;
   }

@@ -45,8 +45,7 @@ struct GroupFeedback {
   /// and what a drive sends then may still be from before. In kFault of start-up: each drive has confirmed voltage off
   /// or failed itself. True also when no drive answers and none was ever enabled.
   bool off = true;
-  /// Of kFault: the first one found; once the quick stop has had its time, kNotStill of a wheel that still turns.
-  DriveFault fault;
+  DriveFault fault;  ///< of kFault; the first one found, and who still turns when the quick stop has had its time
 };
 
 /// Each cycle, in this order: on_frame for every frame received, update, write. Nothing waits, allocates or throws.
@@ -83,7 +82,7 @@ class DriveGroup {
   /// save that enable must have been false before it counts again.
   void stop(Instant now) noexcept;
   /// In kFault: with the next update, resets the drives in fault, or starts all four up again where a drive must be
-  /// told everything anew, and then resets those that are in fault. Ends in kReady, or in kFault.
+  /// told everything anew. Ends in kReady, or in kFault.
   /// After rates::kResetLimit resets within rates::kResetWindow it stays there, and says so.
   void reset_fault() noexcept;
   /// A fault that somebody else found, as an emergency stop: latched as one of the group's own, so that the next write
@@ -116,12 +115,15 @@ class DriveGroup {
   void update_stopping(Instant now) noexcept;
   void update_fault(Instant now) noexcept;
   void judge_quick_stop(Instant now) noexcept;
-  void begin_resetting(Instant now) noexcept;
   void update_resetting(Instant now) noexcept;
 
   void follow(Instant now, bool enable) noexcept;
   void send(std::span<const hal::CanFrame> frames, Instant now) noexcept;
   void begin_stop(Instant now) noexcept;
+  void begin_quick_stop(Instant now) noexcept {
+    quick_stop_since_ = now;
+    quick_stop_judged_ = false;
+  }
   void enter(GroupState state, Instant now) noexcept;
   [[nodiscard]] std::uint16_t controlword_for(const WheelDrive& drive, Instant now) const noexcept;
   [[nodiscard]] std::uint16_t off_word(const WheelDrive& drive) const noexcept;
@@ -143,7 +145,7 @@ class DriveGroup {
   GroupState state_ = GroupState::kBooting;
   Instant since_{};                       // when state_, or the present step of kEnabling or of a reset, was entered
   Instant quick_stop_since_{};            // when the present quick stop began
-  bool quick_stop_judged_ = false;        // in kFault: it has had its time
+  bool quick_stop_judged_ = true;         // the wheels came to rest, or it has had its time
   cia402::PowerState step_{};             // of kEnabling: the state that all four are to reach next
   bool synchronous_ = false;              // all four are Operational: SYNC and RPDO1 go out
   bool enable_was_false_ = false;         // since open, stop or fault
@@ -158,8 +160,7 @@ class DriveGroup {
   bool reset_asked_ = false;
   std::array<std::optional<Instant>, rates::kResetLimit> resets_;  // the last ones, a ring
   std::size_t next_reset_ = 0;
-  bool clearing_ = false;   // the present start-up came from a reset: at its end the drives' faults are reset too
-  bool resetting_ = false;  // in kFault or at the end of such a start-up: the drives' fault reset is under way
+  bool resetting_ = false;  // in kFault: the drives' fault reset is under way
 };
 
 }  // namespace ivo::drivers

@@ -98,10 +98,10 @@ DriveFault DriveGroup::first_fault() const noexcept {
 
 void DriveGroup::enter_fault(const DriveFault& fault, Instant now) noexcept {
   if (state_ != GroupState::kFault && state_ != GroupState::kStopping) {
-    quick_stop_since_ = now;
+    begin_quick_stop(now);
+    quick_stop_judged_ = state_ != GroupState::kEnabling && state_ != GroupState::kEnabled;  // without power: coasting
   }
   feedback_.fault = fault;
-  quick_stop_judged_ = false;
   enter(GroupState::kFault, now);
   enable_was_false_ = false;
   reset_asked_ = false;
@@ -119,13 +119,7 @@ void DriveGroup::update_booting(Instant now) noexcept {
     }
   } else if (all_reached(WheelDrive::Phase::kOperational)) {
     synchronous_ = true;
-    if (!clearing_) {
-      enter(GroupState::kReady, now);
-    } else if (resetting_) {
-      update_resetting(now);
-    } else {
-      begin_resetting(now);
-    }
+    enter(GroupState::kReady, now);
   }
 }
 
@@ -194,31 +188,27 @@ void DriveGroup::update_fault(Instant now) noexcept {
   });
   if (anew || needs_start_up(feedback_.fault)) {
     open(now);
-    clearing_ = true;
     return;
   }
   for (WheelDrive& drive : drives_) {
     drive.clear_fault();
   }
-  begin_resetting(now);
-}
-
-void DriveGroup::begin_resetting(Instant now) noexcept {
   resetting_ = true;
   since_ = now;
 }
 
-// Looked at once: a base that somebody pushes afterwards has stopped in time.
+// Who has come to rest has stopped, and may be pushed afterwards.
 void DriveGroup::judge_quick_stop(Instant now) noexcept {
-  if (quick_stop_judged_ || !synchronous_ || now - quick_stop_since_ <= rates::kStandstillTimeout) {
+  if (quick_stop_judged_ || !synchronous_) {
     return;
   }
-  quick_stop_judged_ = true;
   const auto turning = std::ranges::find_if(
       drives_, [now](const WheelDrive& drive) { return drive.answers(now) && !drive.encoder().still(); });
-  if (turning != drives_.end()) {
-    const auto wheel = static_cast<Wheel>(turning - drives_.begin());
-    feedback_.fault = {.reason = DriveFaultReason::kNotStill, .node_id = turning->node_id(), .wheel = wheel};
+  const bool over = now - quick_stop_since_ > rates::kStandstillTimeout;
+  quick_stop_judged_ = over || turning == drives_.end();
+  if (over && turning != drives_.end() && feedback_.fault.reason != DriveFaultReason::kNotStill) {
+    feedback_.fault.turning_node_id = turning->node_id();
+    feedback_.fault.turning_wheel = static_cast<Wheel>(turning - drives_.begin());
   }
 }
 
@@ -235,7 +225,6 @@ bool DriveGroup::may_reset(Instant now) noexcept {
 void DriveGroup::update_resetting(Instant now) noexcept {
   if (feedback_.fresh && all_off()) {
     resetting_ = false;
-    clearing_ = false;
     voltage_off_ = true;
     feedback_.fault = {};
     enter(GroupState::kReady, now);

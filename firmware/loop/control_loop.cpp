@@ -153,6 +153,11 @@ void ControlLoop::record_fault() noexcept {
   if (wheels_.state == drivers::GroupState::kFault && fault.reason != fault_recorded_) {
     record(EventKind::kDriveFault, static_cast<std::uint8_t>(fault.wheel), static_cast<std::int32_t>(fault.reason));
   }
+  if (fault.turning_node_id != 0 && !turning_recorded_) {
+    record(EventKind::kDriveFault, static_cast<std::uint8_t>(fault.turning_wheel),
+           static_cast<std::int32_t>(drivers::DriveFaultReason::kNotStill));
+  }
+  turning_recorded_ = fault.turning_node_id != 0;
   fault_recorded_ = wheels_.state == drivers::GroupState::kFault ? fault.reason : drivers::DriveFaultReason::kNone;
 }
 

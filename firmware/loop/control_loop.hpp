@@ -53,6 +53,10 @@ class ControlLoop {
   [[nodiscard]] bool finished() const noexcept { return finished_; }
   /// For lock-step time: frames that the drives owe us outside of SYNC.
   [[nodiscard]] int answers_awaited() const noexcept { return drives_.answers_awaited(); }
+  /// Ditto: the COB-ID of the TPDO with which a drive answers SYNC.
+  [[nodiscard]] std::uint16_t feedback_id(Wheel wheel) const noexcept {
+    return drives_.drive(wheel).channels().feedback_id;
+  }
 
   /// From any thread and from a signal handler: the robot ramps down, the run ends.
   void request_stop() noexcept { stop_requested_.store(true, std::memory_order_relaxed); }
@@ -113,6 +117,7 @@ class ControlLoop {
   Instant feedback_at_{};
   Mode mode_ = Mode::kPlanning;
   drivers::DriveFaultReason fault_recorded_ = drivers::DriveFaultReason::kNone;
+  bool turning_recorded_ = false;
 
   Twist moving_;                     // last sent
   WheelValues told_{};               // rad/s, of that

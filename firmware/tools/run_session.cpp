@@ -200,7 +200,10 @@ bool RunSession::seek_clearing(const LoopStatus& status) {
   if (!ConsentQuestion::possible() || status.finished || being_cleared) {
     return false;
   }
-  if (!clear_question_.asked()) {
+  const std::uint8_t turning = status.drive_fault.turning_node_id;
+  const bool news = std::exchange(turning_told_, turning) != turning && turning != 0;
+  if (!clear_question_.asked() || news) {
+    clear_question_.close();
     terminal_.end_line();
     terminal_.show_fault(status);
     clear_question_.ask("fault", "Start the drives up again? Nothing moves before you consent anew. [y/N] ");

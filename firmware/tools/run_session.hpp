@@ -49,6 +49,7 @@ class RunSession {
   ConsentQuestion question_;
   ConsentQuestion clear_question_;
   std::optional<Instant> clear_asked_at_;
+  std::uint8_t turning_told_ = 0;  // node-id of the wheel of which was said that it did not stop
   bool consented_before_ = false;  // and a fault has ended that: --yes was for the first time
   Scheduler scheduler_{Instant{}, rates::kCycle};
   std::int64_t skipped_ = 0;

@@ -91,7 +91,12 @@ class LockStepWorld final : public RunWorld {
 
   hal::CanBus& bus() noexcept override { return lock_step_; }
   hal::Clock& clock() noexcept override { return lock_step_; }
-  void after_cycle(const ControlLoop& loop) noexcept override { lock_step_.expect_answers(loop.answers_awaited()); }
+  void after_cycle(const ControlLoop& loop) noexcept override {
+    lock_step_.expect_answers(loop.answers_awaited());
+    for (std::size_t i = 0; i < kWheels; ++i) {
+      lock_step_.answer_with(i, loop.feedback_id(static_cast<Wheel>(i)));
+    }
+  }
   [[nodiscard]] bool stalled() const noexcept override { return lock_step_.stalled(); }
   [[nodiscard]] bool own_time() const noexcept override { return true; }
   [[nodiscard]] std::string description() const override { return interface_ + ", in lock step with the drives"; }
@@ -100,11 +105,7 @@ class LockStepWorld final : public RunWorld {
   static hal::LockStep::Options answers(const Robot& robot) {
     hal::LockStep::Options options;
     for (const DriveParameters& drive : robot.drives) {
-      (void)options.answers.push_back({});
-      for (std::uint8_t number = 1; number <= drivers::cob_id::kPdos;
-           ++number) {  // one whose mappings are fixed answers by another than the first
-        (void)options.answers.back().push_back(drivers::cob_id::tpdo(number, drive.node_id));
-      }
+      (void)options.answer_ids.push_back(drivers::cob_id::tpdo1(drive.node_id));
     }
     return options;
   }

@@ -31,7 +31,7 @@ std::size_t LockStep::send(std::span<const CanFrame> frames, Instant now) noexce
   ever_sent_ = ever_sent_ || bus_.counters().sent > before;
   if (bus_.just_sent(options_.sync_id)) {
     sync_sent_ = true;
-    sync_answers_missing_ = (std::uint32_t{1} << options_.answers.size()) - 1;
+    sync_answers_missing_ = (std::uint32_t{1} << options_.answer_ids.size()) - 1;
   }
   return count;
 }
@@ -116,13 +116,11 @@ bool LockStep::take(const ReceivedFrame& received) noexcept {
     ++queued_;
   }
   ++arrived_;
-  const auto* const answer = std::find_if(options_.answers.begin(), options_.answers.end(), [&](const auto& ids) {
-    return std::find(ids.begin(), ids.end(), received.frame.id) != ids.end();
-  });
-  if (!sync_sent_ || answer == options_.answers.end()) {
+  const auto* const id = std::find(options_.answer_ids.begin(), options_.answer_ids.end(), received.frame.id);
+  if (!sync_sent_ || id == options_.answer_ids.end()) {
     return !sync_sent_;
   }
-  const std::uint32_t bit = std::uint32_t{1} << (answer - options_.answers.begin());
+  const std::uint32_t bit = std::uint32_t{1} << (id - options_.answer_ids.begin());
   const bool missing = (sync_answers_missing_ & bit) != 0;
   sync_answers_missing_ &= ~bit;
   return missing;

@@ -20,7 +20,7 @@ namespace ivo::hal {
 
 /// Both the bus and the clock of one loop. sleep_until(deadline) sets now to `deadline` once all that is due has
 /// arrived:
-/// - SYNC was sent since the last sleep: one frame of each of `answers`;
+/// - SYNC was sent since the last sleep: one frame of each of `answer_ids`, or of what answer_with() said since;
 /// - otherwise: as many frames as expect_answers() said;
 /// - nothing was ever sent, or nothing is expected: nothing.
 /// Drives that fall silent therefore stop time. Only one limit looks at the host's clock: when `patience` has passed
@@ -32,15 +32,13 @@ namespace ivo::hal {
 /// its way is the host's affair.
 class LockStep final : public CanBus, public Clock {
  public:
-  static constexpr std::size_t kAnswers = 8;
-  static constexpr std::size_t kTpdos = 4;
+  static constexpr std::size_t kAnswerIds = 8;
   static constexpr std::size_t kQueueFrames = 1024;
   static constexpr Duration kHurry = std::chrono::seconds(1);
 
   struct Options {
     std::uint16_t sync_id = 0x080;
-    /// What answers a SYNC: of each drive the COB-IDs of its TPDOs, any one of which will do.
-    StaticVector<StaticVector<std::uint16_t, kTpdos>, kAnswers> answers;
+    StaticVector<std::uint16_t, kAnswerIds> answer_ids;  ///< COB-IDs that answer a SYNC: the TPDOs of all drives
     Duration patience = std::chrono::seconds(30);
   };
 
@@ -50,6 +48,8 @@ class LockStep final : public CanBus, public Clock {
   /// How many answers outside of SYNC are outstanding (boot-ups, SDO answers): to be said each cycle before
   /// sleep_until.
   void expect_answers(int count) noexcept { expected_ = count; }
+  /// The COB-ID of answer number `index` from now on: a drive's feedback may turn out to be another of its TPDOs.
+  void answer_with(std::size_t index, std::uint16_t id) noexcept { options_.answer_ids[index] = id; }
   [[nodiscard]] bool stalled() const noexcept { return stalled_; }
   /// A person wants an end. Any thread, and a signal handler.
   void interrupt() noexcept { hurry_.store(true, std::memory_order_relaxed); }
@@ -81,7 +81,7 @@ class LockStep final : public CanBus, public Clock {
   std::atomic<bool> hurry_{false};
   int expected_ = 0;
   int arrived_ = 0;
-  std::uint32_t sync_answers_missing_ = 0;  // a bit for each of answers; 0 when no SYNC is out
+  std::uint32_t sync_answers_missing_ = 0;  // a bit for each of answer_ids; 0 when no SYNC is out
   bool sync_sent_ = false;
   std::array<ReceivedFrame, kQueueFrames> queue_{};
   std::size_t first_ = 0;

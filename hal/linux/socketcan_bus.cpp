@@ -164,6 +164,7 @@ std::size_t SocketCanBus::send(std::span<const CanFrame> frames, Instant now) no
   }
   const CallResult sent = s.out.send(s.socket.get(), batch);
   if (sent.count > 0 && s.link == Link::kDown) {
+    s.handover.note_change();
     s.set_link(Link::kUp);  // forgets what was on its way before, and nothing of what is now
   }
   const std::size_t taken = s.table.handed_over(sent.count, now);
@@ -231,6 +232,7 @@ SocketCanBus::Woken SocketCanBus::wait(Duration limit) const noexcept {
 void SocketCanBus::State::take_news() noexcept {
   if (const int fresh = handover.take(); fresh >= 0) {
     handover.discard(socket.release());
+    handover.note_change();  // what was seen before is of the old one
     socket = FileDescriptor(fresh);
     lost_in_all = 0;
     controller = BusState::kActive;
@@ -274,7 +276,8 @@ void SocketCanBus::State::note_lost(std::uint32_t so_far) noexcept {
 }
 
 void SocketCanBus::State::note_error(int error) noexcept {
-  if (error == ENODEV || error == ENXIO) {
+  if ((error == ENODEV || error == ENXIO) && link != Link::kRemoved) {
+    handover.note_change();
     set_link(Link::kRemoved);
   } else if (error == ENETDOWN && link == Link::kUp) {
     handover.note_change();

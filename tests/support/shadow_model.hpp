@@ -172,10 +172,6 @@ class ShadowModel {
     }
   }
 
-  // An operator's clearing may start the drives up first, which takes its time; that one of them was in fault shows
-  // only then.
-  [[nodiscard]] bool still_clearing() const { return mode_ == Mode::kStarting && cleared_ && last_clear_.has_value(); }
-
   // More than any ramp of these drives takes after they have missed our heartbeat.
   void look_at_wheels(const Outside& outside) {
     if (outside.wheels_turn && stopped_at_ && !consented_ && !outside.moved_by_others) {
@@ -184,7 +180,6 @@ class ShadowModel {
   }
 
   void check_certain_states() {
-    const bool being_cleared = still_clearing();
     for (Drive& drive : drives_) {
       drive.choose_feedback();
       if (!armed_) {
@@ -192,7 +187,7 @@ class ShadowModel {
         drive.feedback_at = now_;
         drive.heartbeat_at.reset();
       }
-      if (drive.faulty() && !being_cleared) {
+      if (drive.faulty()) {
         certain("drive in fault");
       }
       if (moving_before_ && !drive.enabled()) {
@@ -260,8 +255,7 @@ class ShadowModel {
 
   void look_at_word(std::uint16_t word, Drive& drive) {
     if ((word & 0x80) != 0 && (drive.word & 0x80) == 0) {
-      const bool asked = last_clear_ && now_ - *last_clear_ <= shadow::ms(5000);
-      expect(asked || still_clearing(), "a fault reset that nobody asked for");
+      expect(last_clear_ && now_ - *last_clear_ <= shadow::ms(5000), "a fault reset that nobody asked for");
     }
     drive.word = word;
   }

@@ -4,6 +4,7 @@
 
 #include "drivers/canopen/cob_id.hpp"
 #include "drivers/canopen/frame_bits.hpp"
+#include "drivers/canopen/pdo_layout.hpp"
 #include "firmware/tools/wheels/turn_measure.hpp"
 
 namespace ivo::firmware {
@@ -59,6 +60,7 @@ void BusListener::take(std::size_t wheel, const hal::ReceivedFrame& received) no
     node.heartbeat_at = received.at;
     if (*state == drivers::NmtState::kBootUp) {
       ++node.boot_ups;
+      node.status_tpdo = 0;  // it may be mapped otherwise from now on
       encoders_[wheel].rebase();
     }
   } else if (const auto emergency = drivers::parse_emergency(frame)) {
@@ -74,7 +76,7 @@ void BusListener::take_status(std::size_t wheel, const hal::ReceivedFrame& recei
   HeardNode& node = nodes_[wheel];
   const int number = pdo_number(received.frame.id, cob_id::tpdo1(robot_.drives[wheel].node_id));
   const auto status = drivers::parse_status(received.frame);
-  if (number == 0 || !status || (node.status && number > node.status_tpdo)) {
+  if (number == 0 || !status || (node.status_tpdo != 0 && number > node.status_tpdo)) {
     return;
   }
   if (number != node.status_tpdo) {
@@ -97,7 +99,7 @@ void BusListener::take_targets(const hal::CanFrame& frame) noexcept {
   }
   const auto pair = drivers::parse_target_pair(frame);
   for (std::size_t i = 0; i < nodes_.size() && pair; ++i) {
-    if (pdo_number(frame.id, cob_id::rpdo1(robot_.drives[drivers::first_of_pair(i)].node_id)) != 0) {
+    if (frame.id == drivers::standard_channels(robot_, static_cast<Wheel>(i)).targets_id) {
       told(i, i == drivers::first_of_pair(i) ? pair->first : pair->second);
     }
   }

@@ -10,7 +10,6 @@
 #include "drivers/canopen/emcy.hpp"
 #include "drivers/canopen/nmt.hpp"
 #include "drivers/canopen/pdo.hpp"
-#include "drivers/canopen/pdo_layout.hpp"
 #include "drivers/wheel_encoder.hpp"
 #include "hal/api/can_bus.hpp"
 

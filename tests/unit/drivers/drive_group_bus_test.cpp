@@ -71,7 +71,8 @@ TEST(DriveGroupBus, AFrameOfOursThatTheBusRefusesStopsAllFourAtOnceAndIsSaidSo) 
   rig.narrow.refused += 4;
   EXPECT_EQ(rig.cycle().state, GroupState::kFault);
   EXPECT_EQ(describe(rig.feedback.fault),
-            "4 frames of this controller were refused at the last door before the bus: a fault of the program");
+            "the last door before the bus refused what this controller was to send (4 of its frames): a fault of the "
+            "program");
   expect_stopped_command(rig);
   rig.run(milliseconds(500));
   EXPECT_TRUE(all_at_rest(rig));

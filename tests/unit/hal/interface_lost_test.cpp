@@ -64,6 +64,19 @@ TEST_F(InterfaceLostTest, UpAgainIsSeenByALookTooWithoutSending) {
   EXPECT_EQ(bus().state(), BusState::kActive);
 }
 
+TEST_F(InterfaceLostTest, ALookFromBeforeDoesNotUndoWhatTheLoopSawItself) {
+  bus().look_at_interface();
+  ASSERT_TRUE(shell("ip link set vcan7 down"));
+  EXPECT_EQ(send(kVelocity), 0U);
+  EXPECT_TRUE(receive(bus()).empty());
+  EXPECT_EQ(bus().state(), BusState::kDown) << "the look saw it up";
+  bus().look_at_interface();
+  ASSERT_TRUE(shell("ip link set vcan7 up"));
+  EXPECT_EQ(send(kSync), 1U);
+  EXPECT_TRUE(receive(bus()).empty());
+  EXPECT_EQ(bus().state(), BusState::kActive) << "the look saw it down";
+}
+
 TEST_F(InterfaceLostTest, RemovedAndBackUnderItsNameTheSameBusWorksAgain) {
   remove_link();
   EXPECT_TRUE(receive(bus()).empty());
@@ -137,8 +150,7 @@ TEST_F(InterfaceLostTest, AWatchBringsTheBusBackWithoutAWordFromTheLoop) {
 
 TEST_F(InterfaceLostTest, EndsAWaitInLockStepAtOnceAndComesBackInLockStep) {
   LockStep::Options options;
-  ASSERT_TRUE(options.answers.push_back({}));
-  ASSERT_TRUE(options.answers.back().push_back(0x181));
+  ASSERT_TRUE(options.answer_ids.push_back(0x181));
   options.patience = std::chrono::minutes(5);  // a test that waits in vain hangs
   LockStep step(bus(), options);
   std::array<ReceivedFrame, 8> frames;

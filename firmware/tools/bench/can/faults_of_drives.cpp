@@ -127,7 +127,9 @@ std::vector<FaultRow> faults_of_drives() {
       {.number = 21,
        .name = "a drive that does not slow down in a quick stop",
        .by = "drive 3 deaf to quick stop, drive 1 faults",
-       .says = "drive 3 (rear left): wheel not at rest in time after a stop",
+       .says =
+           "drive 1 (front left): emergency 7300h; drive 3 (rear left) still turned when the quick stop had had its "
+           "time",
        .detected_within = kAtOnce,
        .provoke =
            [](FaultRig& rig) {

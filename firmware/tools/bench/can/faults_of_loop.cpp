@@ -89,7 +89,8 @@ std::vector<FaultRow> faults_of_loop() {
       wrong_command("an infinite twist", "command not finite", WrongCommand::kInfinite),
       wrong_command("a twist of 1e9 m/s", "too fast", WrongCommand::kHuge),
       wrong_command("wheel speeds of 1e9 m/s past the first door",
-                    "* frames of this controller were refused at the last door before the bus: a fault of the program",
+                    "the last door before the bus refused what this controller was to send (4 of its frames): a fault "
+                    "of the program",
                     WrongCommand::kHugePastTheGate),
   };
 }

@@ -131,7 +131,7 @@ Result<FaultFigures> try_command(WrongCommand wrong) {
   }
   FaultFigures figures;
   const double ramp_s = rig.rim_speed_mps() / rig.robot().limits.stop_decel_mps2;
-  figures.rest_limit_ms = ramp_s * 1e3 + 2.0 + 6.0;  // a cycle to notice, then three to act
+  figures.rest_limit_ms = ramp_s * 1e3 + 4.0 * seconds(rates::kCycle) * 1e3;  // one to notice, then three to act
   be_wrong(wrong, doors, rig, figures);
   if (doors.feedback().state == GroupState::kFault) {
     doors.clear();
