@@ -99,7 +99,7 @@ Result<double> rate_of(const Run& run, int frames) {
   }
   const Result<double> whole = brief ? run(frames + kFewFrames) : brief;
   if (!whole) {
-    return whole;
+    return whole.error();
   }
   const double taken_s = whole.value() - brief.value();
   return taken_s > 0.0 ? Result<double>(frames / taken_s)
