@@ -106,9 +106,10 @@ class Run(unittest.TestCase):
                 output += os.read(terminal, 4096)
             except OSError:  # the program has ended
                 break
-            if pending and pending[0][0] in output[asked_from:]:
-                asked_from = len(output)
-                os.write(terminal, pending.pop(0)[1])
+            while pending and pending[0][0] in output[asked_from:]:
+                question, answer = pending.pop(0)
+                asked_from = output.index(question, asked_from) + len(question)
+                os.write(terminal, answer)
         os.close(terminal)
         self.assertEqual(pending, [], output.decode())
         return process.wait(), output.decode()
@@ -132,6 +133,21 @@ class Run(unittest.TestCase):
         self.assertEqual(modes.count("searching"), 2, modes)
         self.assertLess(modes.index("fault"), len(modes) - modes[::-1].index("searching"))
         self.assertIn("fault cleared", [event["event"] for event in events(self.out)])
+
+    ENDLESS = "".join(f'[[at]]\nt_s = {t_s}\ndrive = "{drive}"\nfault = "{fault}"\n' for t_s, drive, fault in (
+        (8.0, "rear_left", "endless_stop"), (8.0, "front_left", "fault")))
+
+    def test_a_wheel_that_does_not_stop_is_told_of_as_soon_as_it_is_known(self):
+        status, said = self.converse(
+            [write_mission(self.folder), "--speed", "max", "--script", self.script(self.ENDLESS)],
+            [(b"Start the search?", b"y\n"),
+             (b"emergency 7300h; drive 3 (rear left) still turned when the quick stop had had its time", b""),
+             (b"Start the drives up again?", b"n\n")],
+        )
+        self.assertEqual(status, 1, said)
+        self.assertEqual(said.count("Start the drives up again?"), 2, "asked at once, and again with the news")
+        self.assertEqual(read_json(self.out, "report.json")["reason"],
+                         "drive 1 (front left): emergency 7300h; drive 3 (rear left) still turned when the quick stop had had its time")
 
     def test_a_fault_that_nobody_clears_ends_the_run(self):
         status, said = self.converse(
