@@ -33,7 +33,7 @@ enum class EdsProblem : std::uint8_t {
   kCompactValues,      ///< a section [xxxxValue]: not supported
   kTooManyObjects,     ///< beyond EdsDictionary::kObjects
   kTooMuchText,        ///< beyond EdsDictionary::kTextBytes
-  kNoObjects,          ///< no section of an object at all
+  kNoObjects,          ///< no section of an object with a value
 };
 
 struct EdsError {

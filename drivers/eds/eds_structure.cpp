@@ -69,9 +69,7 @@ bool before(const EdsObject& a, const EdsObject& b) noexcept {
 std::optional<EdsError> EdsStructure::error(std::span<const EdsObject> objects) noexcept {
   std::sort(heads_.begin(), heads_.end(), before_by_index<EdsHead>);
   std::sort(listed_.begin(), listed_.end(), before_by_index<EdsListed>);
-  if (heads_.empty() && objects.empty()) {
-    return fault(EdsProblem::kNoObjects, 0, {});
-  }
+  const bool without_values = objects.empty();
   if (const Fault twice = duplicate_head()) {
     return twice;
   }
@@ -90,7 +88,11 @@ std::optional<EdsError> EdsStructure::error(std::span<const EdsObject> objects) 
       return wrong;
     }
   }
-  return objects.empty() ? wrong_list() : without_object(objects.front());
+  if (!objects.empty()) {
+    return without_object(objects.front());
+  }
+  const Fault wrong = wrong_list();
+  return wrong || !without_values ? wrong : fault(EdsProblem::kNoObjects, 0, {});
 }
 
 EdsStructure::Fault EdsStructure::duplicate_head() const noexcept {

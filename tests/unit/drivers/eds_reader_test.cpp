@@ -182,6 +182,9 @@ const std::string kSub1 = "[1018sub1]\nParameterName=V\nDataType=7\nAccessType=r
 
 TEST(EdsReader, RefusesByLineSectionAndKey) {
   EXPECT_EQ(complaint(""), "0: no object is described; expected sections as [1000]");
+  EXPECT_EQ(complaint("[0005]\nParameterName=Type\nObjectType=5\n"),
+            "0: no object is described; expected sections as [1000]")
+      << "a type has no value";
   EXPECT_EQ(complaint("a=1\n"), "1: a: the key is before any section; expected [section] first");
   EXPECT_EQ(complaint("[1000\n"), "1: \"[1000\"; expected ] at its end");
   EXPECT_EQ(complaint("[1000]\nnonsense\n"),
