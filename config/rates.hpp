@@ -24,17 +24,18 @@ inline constexpr Duration kFeedbackTimeout = 10ms;          // five SYNCs withou
 inline constexpr Duration kBootTimeout = 5s;                // from reset to boot-up message
 inline constexpr Duration kSdoTimeout = 500ms;  // real drives answer in 6 to over 20 ms; shorter breaks start-up
 inline constexpr int kSdoAttempts = 3;
-inline constexpr int kResetLimit = 3;                // fault resets within kResetWindow; then it is to be mended
-inline constexpr Duration kResetWindow = 60s;        //
-inline constexpr int kLatestPeriods = 5;             // lost while the robot may move, soon one after the other: a fault
-inline constexpr Duration kStateChangeTimeout = 1s;  // one CiA 402 transition
+inline constexpr int kResetLimit = 3;                    // fault resets within kResetWindow; then it is to be mended
+inline constexpr Duration kResetWindow = 60s;            //
+inline constexpr Duration kStateChangeTimeout = 1s;      // one CiA 402 transition
 inline constexpr Duration kUnaskedPowerTimeout = 100ms;  // a drive may be powered unasked for so long
 inline constexpr Duration kStandstillTimeout = 3s;       // from a stop to wheels at rest
 inline constexpr Duration kStandstillDwell = 50ms;       // a wheel rests when it has not moved for so long
+inline constexpr auto kMachineWatchdog = 5s;             // the machine is reset when the loop has stood still so long
 inline constexpr Duration kInputsRead = 10ms;            // emergency stop and bumpers are read so often, besides edges
 inline constexpr Duration kInputsAge = 50ms;             // a reading of them older than that counts as pressed
 
-inline constexpr int kPlannerUnitsPerCycle = 100'000;  // planner work (planner/search/search.hpp): half a millisecond
+inline constexpr int kPlannerUnitsPerCycle = 100'000;  // in simulated time: planner work (planner/search/search.hpp)
+inline constexpr int kThinkUntilPercent = 60;          // in real time: of the period, from its deadline on
 
 static_assert(kMasterHeartbeatTimeout >= 3 * kMasterHeartbeat, "two lost heartbeats are not a dead master");
 static_assert(kInputsAge >= 3 * kInputsRead, "two late readings are no emergency stop");

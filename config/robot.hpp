@@ -73,6 +73,15 @@ struct InputParameters {
   friend bool operator==(const InputParameters&, const InputParameters&) = default;
 };
 
+/// The control loop's thread, and what it does when it is late (firmware/loop/overrun_policy.hpp).
+struct LoopParameters {
+  int ramp_down_at = 3;      ///< periods lost soon one after the other: the robot ramps down until they are forgotten
+  int latch_at = 5;          ///< ditto: a fault, which only an operator clears
+  int priority = 80;         ///< SCHED_FIFO, 1 to 99
+  std::optional<int> cpu{};  ///< that the thread is pinned to; none: wherever the process may run
+  friend bool operator==(const LoopParameters&, const LoopParameters&) = default;
+};
+
 /// How commands reach the drives; feedback is one TPDO a drive in both.
 enum class PdoLayout : std::uint8_t {
   kOwn,     ///< one RPDO a drive: {6040h, 60FFh}
@@ -94,6 +103,7 @@ struct Robot {
   std::array<DriveParameters, kWheels> drives = {
       {{.node_id = 1, .sign = 1}, {.node_id = 2, .sign = -1}, {.node_id = 3, .sign = 1}, {.node_id = 4, .sign = -1}}};
   InputParameters inputs{};
+  LoopParameters loop{};
   friend bool operator==(const Robot&, const Robot&) = default;
 };
 

@@ -22,10 +22,16 @@ bool keep(std::optional<T>& slot, const std::optional<T>& parsed) noexcept {
 }  // namespace
 
 WheelDrive::WheelDrive(const Robot& robot, Wheel wheel) noexcept
-    : parameters_(robot.drives[static_cast<std::size_t>(wheel)]),
+    : WheelDrive(robot, robot.drives[static_cast<std::size_t>(wheel)], wheel) {}
+
+WheelDrive::WheelDrive(const Robot& robot, const DriveParameters& drive, Wheel wheel) noexcept
+    : node_id_(drive.node_id),
+      sign_(drive.sign),
+      gear_ratio_(drive.gear_ratio),
+      velocity_per_radps_(drive.velocity_per_radps),
       wheel_(wheel),
       startup_(robot, wheel),
-      encoder_(parameters_, robot.base.wheel_radius_m) {}
+      encoder_(drive, robot.base.wheel_radius_m) {}
 
 void WheelDrive::open() noexcept {
   startup_.open();
@@ -157,7 +163,7 @@ bool WheelDrive::in_fault() const noexcept {
 DriveCommand WheelDrive::command(std::uint16_t controlword, double radps) const noexcept {
   constexpr double kLowest = std::numeric_limits<std::int32_t>::min();
   constexpr double kHighest = std::numeric_limits<std::int32_t>::max();
-  const double units = radps * parameters_.sign * parameters_.gear_ratio * parameters_.velocity_per_radps;
+  const double units = radps * sign_ * gear_ratio_ * velocity_per_radps_;
   const double target = std::isnan(units) ? 0.0 : std::clamp(std::round(units), kLowest, kHighest);
   return {controlword, static_cast<std::int32_t>(target)};
 }

@@ -47,7 +47,7 @@ class WheelDrive {
   /// `radps` at the wheel in the drive's units, rounded, held within its 32 bits; 0 when not a number.
   [[nodiscard]] DriveCommand command(std::uint16_t controlword, double radps) const noexcept;
 
-  [[nodiscard]] std::uint8_t node_id() const noexcept { return parameters_.node_id; }
+  [[nodiscard]] std::uint8_t node_id() const noexcept { return node_id_; }
   [[nodiscard]] Phase phase() const noexcept { return startup_.phase(); }
   /// The COB-IDs of its PDOs, once it is configured.
   [[nodiscard]] const PdoChannels& channels() const noexcept { return startup_.channels(); }
@@ -87,10 +87,15 @@ class WheelDrive {
     std::optional<DriveStatus> feedback;
   };
 
+  WheelDrive(const Robot& robot, const DriveParameters& drive, Wheel wheel) noexcept;
+
   void hear_heartbeat(const hal::ReceivedFrame& received) noexcept;
   void watch(Instant now) noexcept;
 
-  DriveParameters parameters_;
+  std::uint8_t node_id_;
+  int sign_;
+  double gear_ratio_;
+  double velocity_per_radps_;
   Wheel wheel_;
   DriveStartup startup_;
   WheelEncoder encoder_;

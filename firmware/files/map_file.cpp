@@ -92,7 +92,8 @@ Result<MapFile> read_map(const std::string& toml_path) {
     return finish.error();
   }
 
-  Result<ClassFile> table = classes.empty() ? built_in_classes() : read_classes(beside(toml_path, classes));
+  map.classes_path = classes.empty() ? "" : beside(toml_path, classes);
+  Result<ClassFile> table = classes.empty() ? built_in_classes() : read_classes(map.classes_path);
   if (!table) {
     return table.error();
   }

@@ -13,6 +13,7 @@ namespace ivo::firmware {
 struct MapFile {
   std::string path;
   std::string image_path;
+  std::string classes_path;  ///< of the class table; empty: the built-in one
   int width_px = 0;
   int height_px = 0;
   double resolution_m = 0.0;

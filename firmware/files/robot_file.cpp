@@ -101,6 +101,23 @@ void read_bus(Robot& robot, const TomlValue& bus) {
   }
 }
 
+LoopParameters read_loop(const TomlValue& table) {
+  LoopParameters loop;
+  loop.ramp_down_at = static_cast<int>(table.optional("ramp_down_at").integer(2, 24, loop.ramp_down_at));
+  const TomlValue latch = table.optional("latch_at");
+  loop.latch_at = static_cast<int>(latch.integer(3, 25, loop.latch_at));
+  if (loop.latch_at <= loop.ramp_down_at) {
+    (latch.present() ? latch : table)
+        .complain("latch_at is " + std::to_string(loop.latch_at) + "; expected more than ramp_down_at, " +
+                  std::to_string(loop.ramp_down_at));
+  }
+  loop.priority = static_cast<int>(table.optional("priority").integer(1, 99, loop.priority));
+  if (const TomlValue cpu = table.optional("cpu"); cpu.present()) {
+    loop.cpu = static_cast<int>(cpu.integer(0, 1023));
+  }
+  return loop;
+}
+
 DriveParameters read_drive(const TomlValue& table, const std::string& path) {
   DriveParameters drive;
   drive.node_id = static_cast<std::uint8_t>(table.required("node_id").integer(1, 126));
@@ -183,6 +200,7 @@ Result<Robot> read_robot(const std::string& path) {
     robot.drives[i] = read_drive(drives.required(kWheelKeys[i]), path);
   }
   robot.inputs = read_inputs(root.optional("inputs"));
+  robot.loop = read_loop(root.optional("loop"));
   refuse_shared_node_ids(drives, robot);
   refuse_units_that_do_not_fit(drives, robot);
   if (const Result<void> finish = toml.value().finish(); !finish) {

@@ -10,11 +10,8 @@ namespace {
 
 using std::chrono_literals::operator""ms;
 
-constexpr Duration kPositionEvery = 200ms;    // in the event log
-constexpr std::int64_t kForgetPeriodIn = 20;  // cycles in time make one lost period forgotten
-constexpr int kLongestStep = 2;               // cycles: a late one must not let the velocity jump
-// After this long in an end mode nobody waits for the drives any more: they stop by our missing heartbeat.
-constexpr Duration kGiveUp = rates::kStandstillTimeout + rates::kStateChangeTimeout;
+constexpr Duration kPositionEvery = 200ms;  // in the event log
+constexpr int kLongestStep = 2;             // cycles: a late one must not let the velocity jump
 
 // The mission says how fast the robot searches; nothing may drive it faster.
 MotionLimits planned_limits(const LoopSetup& setup) noexcept {
@@ -30,7 +27,7 @@ bool at_rest(const Twist& twist) noexcept {
 }  // namespace
 
 ControlLoop::ControlLoop(const LoopSetup& setup, planner::Planner& planner, hal::CanBus& bus) noexcept
-    : planner_(planner),
+    : tracer_(setup.tracer != nullptr ? *setup.tracer : no_tracer_),
       bus_(bus, setup.robot),
       drives_(bus_, setup.robot),
       kinematics_(setup.robot.base),
@@ -41,13 +38,31 @@ ControlLoop::ControlLoop(const LoopSetup& setup, planner::Planner& planner, hal:
       monitor_(setup.robot),
       stop_inputs_(setup.robot.inputs),
       inputs_(setup.inputs),
+      overruns_(setup.robot.loop, setup.overruns_count_only),
+      watch_(setup.stopwatch, tracer_),
       search_(planner.cells(), setup.searchers),
       object_(setup.object),
       start_(setup.start),
+      stands_(setup.start),
       cycle_(setup.robot.cycle),
       longest_step_(kLongestStep * setup.robot.cycle),
-      fault_waits_(setup.fault_waits) {
-  odometry_.reset(start_);
+      fault_waits_(setup.fault_waits),
+      real_time_(setup.real_time && setup.stopwatch != nullptr),
+      slices_(planner, events_, tracer_) {
+  if (setup.resumed != nullptr) {
+    take_up(*setup.resumed);
+  }
+  odometry_.reset(stands_);
+}
+
+// The plan is there, everybody stands where they were left. What follows is as after planning: drives, then consent.
+void ControlLoop::take_up(const ResumedSearch& resumed) noexcept {
+  slices_.take_over(resumed.plan);
+  if (resumed.started) {
+    stands_ = resumed.robot;
+    left_off_m_ = resumed.distance_left_m;
+    search_.resume(slices_.plan(), object_, resumed.progress);
+  }
 }
 
 void ControlLoop::open(Instant now) noexcept {
@@ -55,24 +70,40 @@ void ControlLoop::open(Instant now) noexcept {
   drives_.open(now);
 }
 
-void ControlLoop::cycle(Instant now, std::int64_t skipped) noexcept {
-  // What the scheduler tells is of the cycle before; one that overslept sees it by its own clock.
-  const std::int64_t late = std::max<std::int64_t>(skipped, (now - now_) / cycle_ - 1);
-  dt_ = std::min(now - now_, longest_step_);
-  now_ = now;
+void ControlLoop::cycle(const CycleStart& start) noexcept {
+  watch_.begin();
+  tracer_.cycle_began(start.now, watch_.began(), start.woke_late, start.skipped);
+  judge_time(start);
   take_commands();
   drain_bus();
-  look_at_ourselves(skipped, late);
-  look_at_stop_inputs();
   look_at_drives();
   look_for_object();
   decide_mode();
-  write(pass_gate(clamp(choose_velocity())));
-  think();
+  write(choose_velocity());
+  think(start);
   publish();
+  watch_.end(start.woke_late);
+  tracer_.cycle_ended();
+}
+
+void ControlLoop::judge_time(const CycleStart& start) noexcept {
+  const PhaseWatch::Lap lap(watch_, Phase::kJudgeTime);
+  // By the loop's own clock: one that overslept sees it at once, and the phase is kept, so it counts each period once.
+  const std::int64_t lost = std::max<std::int64_t>(0, (start.now - now_ + cycle_ / 2) / cycle_ - 1);
+  dt_ = std::min(start.now - now_, longest_step_);
+  now_ = start.now;
+  const Lateness lateness = overruns_.judge(lost, permissions(mode_).may_move);
+  if (start.skipped > 0) {
+    counters_.skipped += static_cast<std::uint64_t>(start.skipped);
+    record(EventKind::kOverrun, static_cast<std::uint8_t>(lateness), static_cast<std::int32_t>(start.skipped));
+  }
+  if (lateness == Lateness::kLatched) {
+    fail({.reason = drivers::DriveFaultReason::kCycleLate, .code = static_cast<std::uint32_t>(lost)});
+  }
 }
 
 void ControlLoop::take_commands() noexcept {
+  const PhaseWatch::Lap lap(watch_, Phase::kTakeCommands);
   consent_ = false;
   clear_asked_ = false;
   StopCause cause = stop_requested_.load(std::memory_order_relaxed) ? StopCause::kAsked : StopCause::kNone;
@@ -99,6 +130,7 @@ void ControlLoop::take_commands() noexcept {
 }
 
 void ControlLoop::drain_bus() noexcept {
+  const PhaseWatch::Lap lap(watch_, Phase::kDrainBus);
   const std::size_t received = bus_.receive(frames_, now_);
   for (std::size_t i = 0; i < received; ++i) {
     drives_.on_frame(frames_[i]);
@@ -106,10 +138,13 @@ void ControlLoop::drain_bus() noexcept {
   if (bus_.state() != counters_.bus_state) {
     counters_.bus_state = bus_.state();
     record(EventKind::kBusState, 0, static_cast<std::int32_t>(counters_.bus_state));
+    tracer_.bus_state(static_cast<std::uint8_t>(counters_.bus_state));
   }
 }
 
 void ControlLoop::look_at_drives() noexcept {
+  const PhaseWatch::Lap lap(watch_, Phase::kLookAtDrives);
+  look_at_stop_inputs();
   if (clear_asked_) {
     drives_.reset_fault();
   }
@@ -135,38 +170,13 @@ void ControlLoop::look_at_stop_inputs() noexcept {
   }
 }
 
-void ControlLoop::look_at_ourselves(std::int64_t skipped, std::int64_t late) noexcept {
-  if (skipped > 0) {
-    counters_.skipped += static_cast<std::uint64_t>(skipped);
-    record(EventKind::kOverrun, 0, static_cast<std::int32_t>(skipped));
-  }
-  lateness_ = std::max<std::int64_t>(0, lateness_ - 1) + kForgetPeriodIn * std::max<std::int64_t>(late, 0);
-  if (!permissions(mode_).may_move) {
-    lateness_ = 0;
-  } else if (lateness_ >= kForgetPeriodIn * rates::kLatestPeriods) {
-    fail({.reason = drivers::DriveFaultReason::kCycleLate, .code = static_cast<std::uint32_t>(late)});
-  }
-}
-
-void ControlLoop::record_fault() noexcept {
-  const drivers::DriveFault& fault = wheels_.fault;
-  if (wheels_.state == drivers::GroupState::kFault && fault.reason != fault_recorded_) {
-    record(EventKind::kDriveFault, static_cast<std::uint8_t>(fault.wheel), static_cast<std::int32_t>(fault.reason));
-  }
-  if (fault.turning_node_id != 0 && !turning_recorded_) {
-    record(EventKind::kDriveFault, static_cast<std::uint8_t>(fault.turning_wheel),
-           static_cast<std::int32_t>(drivers::DriveFaultReason::kNotStill));
-  }
-  turning_recorded_ = fault.turning_node_id != 0;
-  fault_recorded_ = wheels_.state == drivers::GroupState::kFault ? fault.reason : drivers::DriveFaultReason::kNone;
-}
-
 void ControlLoop::fail(const drivers::DriveFault& fault) noexcept {
   drives_.fail(fault, now_);
   wheels_ = drives_.feedback();
 }
 
 void ControlLoop::look_for_object() noexcept {
+  const PhaseWatch::Lap lap(watch_, Phase::kLookForObject);
   // A fault of the robot that waits to be cleared does not keep the others from searching.
   const bool others_go_on = fault_waits_ && mode_ != Mode::kStopping && mode_ != Mode::kDone;
   if (!search_started_ || (mode_ != Mode::kSearching && !others_go_on) || search_.state() != SearchState::kRunning) {
@@ -187,13 +197,14 @@ void ControlLoop::look_for_object() noexcept {
 }
 
 void ControlLoop::decide_mode() noexcept {
+  const PhaseWatch::Lap lap(watch_, Phase::kDecideMode);
   using drivers::GroupState;
   const bool enabled = wheels_.state == GroupState::kEnabled;
   const bool stop_held = stop_held_.reason != drivers::DriveFaultReason::kNone;
   const Mode before = mode_;
   mode_ = mode_machine_.update(
       {
-          .plan_ready = plan_ready_,
+          .plan_ready = slices_.ready(),
           .consent_given = consent_,
           .stop_asked = stop_cause_ != StopCause::kNone,
           .clear_asked = clear_asked_,
@@ -208,6 +219,9 @@ void ControlLoop::decide_mode() noexcept {
   if (mode_ != before) {
     enter(mode_);
   }
+  if (mode_ != before || counters_.cycles == 0) {
+    tracer_.mode(static_cast<std::uint8_t>(mode_));
+  }
   if (mode_ == Mode::kSearching && enabled && !search_started_) {
     begin_search();
   }
@@ -218,7 +232,9 @@ void ControlLoop::decide_mode() noexcept {
 
 void ControlLoop::enter(Mode mode) noexcept {
   record(EventKind::kMode, 0, static_cast<std::int32_t>(mode));
+  times_ready_ += mode == Mode::kAwaitingConsent ? 1 : 0;
   if (mode == Mode::kSearching) {
+    consented_ = true;
     record(EventKind::kConsent);
   }
   if (mode == Mode::kDone || mode == Mode::kFault) {
@@ -230,15 +246,26 @@ void ControlLoop::enter(Mode mode) noexcept {
 // Everybody sets off together: when the last drive holds speed.
 void ControlLoop::begin_search() noexcept {
   search_started_ = true;
-  odometry_.reset(start_);
+  odometry_.reset(stands_);
   limiter_.reset();
-  (void)follower_.start(plan_.paths[0].waypoints.span(), start_);
-  search_.start(now_, plan_, object_);
+  const auto path = slices_.plan().paths[0].waypoints.span();
+  if (left_off_m_) {
+    (void)follower_.resume(path, stands_, start_.heading_rad, *left_off_m_);
+    search_.go_on(now_);
+  } else {
+    (void)follower_.start(path, stands_);
+    search_.start(now_, slices_.plan(), object_);
+  }
   next_position_ = now_;
   record(EventKind::kSearchStarted);
 }
 
 Twist ControlLoop::choose_velocity() noexcept {
+  const PhaseWatch::Lap lap(watch_, Phase::kChooseVelocity);
+  return pass_gate(clamp(follow()));
+}
+
+Twist ControlLoop::follow() noexcept {
   if (mode_ != Mode::kSearching || !search_started_) {
     return {};
   }
@@ -251,7 +278,7 @@ Twist ControlLoop::clamp(const Twist& wanted) noexcept {
     limiter_.reset();
     return {};
   }
-  if (mode_ == Mode::kStopping) {
+  if (mode_ == Mode::kStopping || overruns_.lateness() == Lateness::kRampDown) {
     return limiter_.ramp_down(dt_);
   }
   const double scale = kinematics_.saturation(kinematics_.wheel_speeds(wanted));
@@ -271,6 +298,7 @@ Twist ControlLoop::pass_gate(const Twist& limited) noexcept {
 }
 
 void ControlLoop::write(const Twist& passed) noexcept {
+  const PhaseWatch::Lap lap(watch_, Phase::kWrite);
   const bool enable = permissions(mode_).enable_drives;
   bus_.permit_motion(enable);
   told_ = kinematics_.wheel_speeds(passed);
@@ -278,69 +306,14 @@ void ControlLoop::write(const Twist& passed) noexcept {
   moving_ = passed;
 }
 
-// Last, in what is left of the cycle: SYNC and targets never wait for a thought.
-void ControlLoop::think() noexcept {
-  int left = rates::kPlannerUnitsPerCycle;
-  while (left > 0 && permissions(mode_).think && !plan_ready_) {
-    think_a_slice({left});
-    left -= std::max(1, planner_.last_slice_units());
+// Late in the cycle, in what is left of it: SYNC and targets never wait for a thought.
+void ControlLoop::think(const CycleStart& start) noexcept {
+  const PhaseWatch::Lap lap(watch_, Phase::kThink);
+  if (!permissions(mode_).think || slices_.ready()) {
+    return;
   }
-}
-
-void ControlLoop::think_a_slice(planner::Budget budget) noexcept {
-  const planner::Progress before = planner_.progress();
-  const planner::Progress progress = planner_.step(budget);
-  if (progress.has_plan && (!before.has_plan || progress.best.expected_time_s != before.best.expected_time_s)) {
-    record(EventKind::kPlanImproved, 0, progress.generation,
-           {progress.best.expected_time_s, progress.best.unseen_mass});
-  }
-  if (progress.done) {
-    planner_.best_plan(plan_);
-    shown_plan_.write(plan_);
-    plan_ready_ = true;
-    record(EventKind::kPlanReady, 0, progress.generation);
-  }
-}
-
-void ControlLoop::publish() noexcept {
-  const bool given_up = mode_ == Mode::kFault && (!fault_waits_ || stop_cause_ != StopCause::kNone);
-  const bool ended = mode_ == Mode::kDone || given_up;
-  finished_ = ended && (wheels_.off || now_ - ended_ > kGiveUp);
-
-  ++counters_.cycles;
-  counters_.bus = bus_.counters();
-  counters_.refused_frames = bus_.refused();
-  counters_.malformed_frames = drives_.malformed();
-  counters_.refused_commands = 0;
-  for (int reason = 1; reason < kRefusals; ++reason) {
-    counters_.refused_commands += gate_.refused(static_cast<Refusal>(reason));
-  }
-
-  LoopStatus status;
-  status.at = now_;
-  status.mode = mode_;
-  status.plan_ready = plan_ready_;
-  status.finished = finished_;
-  status.power_off = wheels_.off;
-  status.planning = planner_.progress();
-  status.robot = odometry_.pose();
-  for (int agent = 0; agent < search_.agents(); ++agent) {
-    status.tracks[static_cast<std::size_t>(agent)] = search_.track(agent);
-  }
-  status.search = search_.state();
-  status.search_started = search_started_;
-  status.finder = search_.finder();
-  status.search_time = search_.elapsed();
-  status.stop_cause = stop_cause_;
-  status.drives = wheels_.state;
-  status.drive_fault = wheels_.fault;
-  status.stop_held = stop_held_;
-  status.counters = counters_;
-  status_.write(status);
-}
-
-void ControlLoop::record(EventKind kind, std::uint8_t agent, std::int32_t code, Point place) noexcept {
-  (void)events_.push({now_, kind, agent, code, place.x_m, place.y_m});  // a loss is counted by the ring
+  const Instant until = watch_.began() - start.woke_late + cycle_ * rates::kThinkUntilPercent / 100;
+  slices_.run(now_, real_time_ ? watch_.stopwatch() : nullptr, until);
 }
 
 }  // namespace ivo::firmware

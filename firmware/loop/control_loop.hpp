@@ -1,20 +1,28 @@
-// The robot, one cycle at a time. control_loop.cpp is its table of contents; every line there is a file.
+// The robot, one cycle at a time. control_loop.cpp is its table of contents; every line there is a file. What it tells
+// the rest of the program is in control_loop_report.cpp.
 #pragma once
 
 #include <array>
 #include <atomic>
+#include <optional>
 
 #include "config/base/latest.hpp"
+#include "config/base/realtime.hpp"
 #include "config/base/spsc_ring.hpp"
 #include "config/robot.hpp"
 #include "drivers/drive_group.hpp"
 #include "firmware/loop/loop_status.hpp"
+#include "firmware/loop/overrun_policy.hpp"
+#include "firmware/loop/phase_times.hpp"
+#include "firmware/loop/planner_slices.hpp"
+#include "firmware/mission/resumed_search.hpp"
 #include "firmware/mission/search_run.hpp"
 #include "firmware/motion/kinematics.hpp"
 #include "firmware/motion/limiter.hpp"
 #include "firmware/motion/odometry.hpp"
 #include "firmware/motion/path_follower.hpp"
 #include "firmware/record/event.hpp"
+#include "firmware/record/tracer.hpp"
 #include "firmware/safety/command_gate.hpp"
 #include "firmware/safety/guarded_bus.hpp"
 #include "firmware/safety/mode.hpp"
@@ -34,6 +42,23 @@ struct LoopSetup {
   bool fault_waits = false;
   /// Where the robot has stop inputs (robot.inputs); outlives the loop. Inputs that nobody reads count as pressed.
   hal::DigitalInputs* inputs = nullptr;
+  /// What phases are measured with; none: nothing is measured. Outlives the loop.
+  hal::Clock* stopwatch = nullptr;
+  /// Where what cycles do is traced, by that stopwatch; none: nowhere. Outlives the loop.
+  Tracer* tracer = nullptr;
+  /// Time is real, and `stopwatch` its clock: the planner's slices are sized by what work has cost, not by count alone.
+  bool real_time = false;
+  /// Lost periods are counted and nothing else: the bus is simulated, and a busy host says nothing about a robot.
+  bool overruns_count_only = false;
+  /// A search that is taken up instead of planned; only the constructor looks at it.
+  const ResumedSearch* resumed = nullptr;
+};
+
+/// When a cycle runs, by the one who calls it.
+struct CycleStart {
+  Instant now{};
+  std::int64_t skipped = 0;  ///< periods lost before it
+  Duration woke_late{};      ///< from its deadline to `now`; of real time alone
 };
 
 class ControlLoop {
@@ -44,10 +69,9 @@ class ControlLoop {
   /// Before the first cycle: the drives begin to start up. Nothing moves.
   void open(Instant now) noexcept;
 
-  /// One cycle. `skipped`: periods lost before it. Never waits, allocates or throws. Cost: the planner's share
-  /// (rates::kPlannerUnitsPerCycle units while planning) and some microseconds; in the cycle in which the plan is
-  /// ready, its copies.
-  void cycle(Instant now, std::int64_t skipped) noexcept;
+  /// One cycle. Never waits, allocates or throws. Cost: some microseconds and, while planning, the planner's share
+  /// (planner_slices.hpp), in real time up to rates::kThinkUntilPercent of the period.
+  void cycle(const CycleStart& start) noexcept IVO_REALTIME;
 
   /// Drives off, or given up: no cycle is needed any more.
   [[nodiscard]] bool finished() const noexcept { return finished_; }
@@ -65,32 +89,44 @@ class ControlLoop {
   bool command(OperatorCommand command) noexcept { return commands_.push(command); }
   [[nodiscard]] const LoopStatus& status() noexcept { return status_.read(); }
   /// The plan; valid once a status has shown plan_ready.
-  [[nodiscard]] const planner::Plan& plan() noexcept { return shown_plan_.read(); }
+  [[nodiscard]] const planner::Plan& plan() noexcept { return slices_.shown(); }
   [[nodiscard]] EventRing& events() noexcept { return events_; }
+  /// Cycles so far, from any thread: what a watchdog looks at.
+  [[nodiscard]] std::uint64_t cycles() const noexcept { return cycles_.load(std::memory_order_relaxed); }
+  /// Work of the planner so far (planner/search/search.hpp); for the loop's own thread.
+  [[nodiscard]] std::int64_t planner_units() const noexcept { return slices_.units(); }
+  /// What they cost; for the loop's own thread, or once it has ended.
+  [[nodiscard]] const PhaseTimes& times() const noexcept { return watch_.times(); }
 
  private:
+  // The phases.
+  void judge_time(const CycleStart& start) noexcept;
   void take_commands() noexcept;
   void drain_bus() noexcept;
   void look_at_drives() noexcept;
-  void look_at_stop_inputs() noexcept;
-  void look_at_ourselves(std::int64_t skipped, std::int64_t late) noexcept;
   void look_for_object() noexcept;
   void decide_mode() noexcept;
   [[nodiscard]] Twist choose_velocity() noexcept;
-  [[nodiscard]] Twist clamp(const Twist& wanted) noexcept;
-  [[nodiscard]] Twist pass_gate(const Twist& limited) noexcept;
   void write(const Twist& passed) noexcept;
-  void think() noexcept;
-  void think_a_slice(planner::Budget budget) noexcept;
+  void think(const CycleStart& start) noexcept;
   void publish() noexcept;
 
+  // What they are made of.
+  void look_at_stop_inputs() noexcept;
+  [[nodiscard]] Twist follow() noexcept;
+  [[nodiscard]] Twist clamp(const Twist& wanted) noexcept;
+  [[nodiscard]] Twist pass_gate(const Twist& limited) noexcept;
+  void count() noexcept;
+  void take_up(const ResumedSearch& resumed) noexcept;
   void begin_search() noexcept;
   void record_fault() noexcept;
+  void trace_motion() noexcept;
   void fail(const drivers::DriveFault& fault) noexcept;
   void enter(Mode mode) noexcept;
   void record(EventKind kind, std::uint8_t agent = 0, std::int32_t code = 0, Point place = {}) noexcept;
 
-  planner::Planner& planner_;
+  Tracer no_tracer_;
+  Tracer& tracer_;
   GuardedBus bus_;
   drivers::DriveGroup drives_;
   Kinematics kinematics_;
@@ -102,13 +138,16 @@ class ControlLoop {
   StopInputs stop_inputs_;
   hal::DigitalInputs* inputs_;
   ModeMachine mode_machine_;
+  OverrunPolicy overruns_;
+  PhaseWatch watch_;
   SearchRun search_;
   SearchObject object_;
   Pose start_;
+  Pose stands_;  // until it moves
   Duration cycle_;
   Duration longest_step_;
-  std::int64_t lateness_ = 0;  // kForgetPeriodIn for each lost period, one less each cycle
   bool fault_waits_;
+  bool real_time_;
 
   // Of the cycle under way.
   Instant now_{};
@@ -123,10 +162,12 @@ class ControlLoop {
   WheelValues told_{};               // rad/s, of that
   drivers::DriveFault stop_held_{};  // an input is pressed
   PathFollower::Output following_;
-  bool plan_ready_ = false;
+  std::uint32_t times_ready_ = 0;
   bool consent_ = false;
   bool clear_asked_ = false;
+  bool consented_ = false;
   bool search_started_ = false;
+  std::optional<double> left_off_m_;  // of the path, by the run that this one takes up
   StopCause stop_cause_ = StopCause::kNone;
   Instant ended_{};
   Instant next_position_{};
@@ -134,13 +175,13 @@ class ControlLoop {
   LoopCounters counters_;
   std::array<hal::ReceivedFrame, limits::kFramesPerCycle> frames_{};
 
-  planner::Plan plan_;
-  Latest<planner::Plan> shown_plan_;
   Latest<LoopStatus> status_;
   SpscRing<OperatorCommand, 16> commands_;
   std::atomic<bool> stop_requested_{false};
   static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it");
+  std::atomic<std::uint64_t> cycles_{0};
   EventRing events_;
+  PlannerSlices slices_;
 };
 
 }  // namespace ivo::firmware

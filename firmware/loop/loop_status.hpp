@@ -7,6 +7,7 @@
 
 #include "config/base/time.hpp"
 #include "drivers/drive_group.hpp"
+#include "firmware/loop/overrun_policy.hpp"
 #include "firmware/mission/search_run.hpp"
 #include "firmware/safety/mode.hpp"
 #include "hal/api/can_bus.hpp"
@@ -37,13 +38,17 @@ struct LoopStatus {
   Pose robot;
   std::array<AgentTrack, limits::kAgents> tracks{};
   SearchState search = SearchState::kRunning;
-  bool search_started = false;
+  bool search_started = false;   ///< by this run, or by the one that it takes up
+  bool consented = false;        ///< somebody has agreed in this run
+  double distance_left_m = 0.0;  ///< of the robot's path, once it follows it
   std::optional<int> finder;
   Duration search_time{};
   StopCause stop_cause = StopCause::kNone;
   drivers::GroupState drives = drivers::GroupState::kBooting;
   drivers::DriveFault drive_fault;
   drivers::DriveFault stop_held;  ///< a stop input that is pressed now: the robot does not get ready
+  std::uint32_t times_ready = 0;  ///< how often it has begun to await consent: an answer is to the last of them
+  Lateness lateness = Lateness::kInTime;
   LoopCounters counters;
 };
 

@@ -24,6 +24,22 @@ void SearchRun::start(Instant now, const planner::Plan& plan, const SearchObject
   }
 }
 
+void SearchRun::resume(const planner::Plan& plan, const SearchObject& object, const SearchProgress& left) noexcept {
+  object_ = object;
+  elapsed_ = left.elapsed;
+  state_ = left.state;
+  finder_ = left.finder;
+  tracks_ = left.tracks;
+  for (std::size_t m = 0; m < searchers_.size(); ++m) {
+    persons_[m].resume(plan.paths[m], searchers_[m].speed_mps, tracks_[m].moved_m);
+  }
+}
+
+void SearchRun::go_on(Instant now) noexcept {
+  started_ = now - elapsed_;
+  updated_ = now;
+}
+
 void SearchRun::update(Instant now, Point robot, bool robot_path_ended) noexcept {
   if (state_ != SearchState::kRunning) {
     return;

@@ -33,12 +33,24 @@ struct AgentTrack {
   bool path_ended = false;
 };
 
+/// How far a search has come.
+struct SearchProgress {
+  std::array<AgentTrack, limits::kAgents> tracks{};
+  Duration elapsed{};
+  SearchState state = SearchState::kRunning;
+  std::optional<int> finder;
+};
+
 class SearchRun {
  public:
   SearchRun(const planner::Cells& cells, const Searchers& searchers) noexcept;
 
   /// Everybody is at their start; `plan` outlives the search.
   void start(Instant now, const planner::Plan& plan, const SearchObject& object) noexcept;
+
+  /// Everybody is where `left` says; time stands until go_on(). `plan` as in start().
+  void resume(const planner::Plan& plan, const SearchObject& object, const SearchProgress& left) noexcept;
+  void go_on(Instant now) noexcept;
 
   /// One cycle: the robot is at `robot` and has or has not come to the end of its path; simulated persons walk on.
   /// Cost: a line of sight an agent.

@@ -12,8 +12,14 @@ void SimulatedPerson::start(const planner::AgentPath& path, double speed_mps) no
   walked_m_ = 0.0;
 }
 
-void SimulatedPerson::walk(Duration dt) noexcept {
-  double left_m = speed_mps_ * seconds(dt);
+void SimulatedPerson::resume(const planner::AgentPath& path, double speed_mps, double walked_m) noexcept {
+  start(path, speed_mps);
+  go(walked_m);
+}
+
+void SimulatedPerson::walk(Duration dt) noexcept { go(speed_mps_ * seconds(dt)); }
+
+void SimulatedPerson::go(double left_m) noexcept {
   while (!arrived() && left_m > 0.0) {
     const Point ahead = path_->waypoints[next_];
     const double dx = ahead.x_m - position_.x_m;

@@ -11,6 +11,9 @@ class SimulatedPerson {
   /// `path` outlives the walk.
   void start(const planner::AgentPath& path, double speed_mps) noexcept;
 
+  /// Has come `walked_m` along it.
+  void resume(const planner::AgentPath& path, double speed_mps, double walked_m) noexcept;
+
   /// Cost: the waypoints passed in `dt`.
   void walk(Duration dt) noexcept;
 
@@ -19,6 +22,8 @@ class SimulatedPerson {
   [[nodiscard]] bool arrived() const noexcept { return next_ >= path_->waypoints.size(); }
 
  private:
+  void go(double left_m) noexcept;
+
   const planner::AgentPath* path_ = nullptr;
   double speed_mps_ = 0.0;
   std::size_t next_ = 0;  // waypoint ahead

@@ -10,6 +10,7 @@ namespace ivo::firmware {
 namespace {
 
 using WheelMatrix = Eigen::Matrix<double, kWheels, 3>;
+using TwistMatrix = Eigen::Matrix<double, 3, kWheels>;
 using WheelVector = Eigen::Matrix<double, kWheels, 1>;
 
 bool positive(double value) noexcept { return std::isfinite(value) && value > 0; }
@@ -35,18 +36,21 @@ Kinematics::Kinematics(const BaseParameters& base) noexcept
     : wheel_radius_m_(base.wheel_radius_m), max_wheel_radps_(base.max_wheel_radps) {
   IVO_CONTRACT(positive(base.wheel_radius_m) && positive(base.half_length_m) && positive(base.half_width_m) &&
                positive(base.max_wheel_radps) && positive(base.turn_scale));
-  wheels_from_twist_ = rim_speeds_from_twist(base) / wheel_radius_m_;
-  const Eigen::Matrix3d normal = wheels_from_twist_.transpose() * wheels_from_twist_;
-  twist_from_wheels_ = normal.inverse() * wheels_from_twist_.transpose();
+  const WheelMatrix wheels_from_twist = rim_speeds_from_twist(base) / wheel_radius_m_;
+  const Eigen::Matrix3d normal = wheels_from_twist.transpose() * wheels_from_twist;
+  Eigen::Map<WheelMatrix>(wheels_from_twist_.data()) = wheels_from_twist;
+  Eigen::Map<TwistMatrix>(twist_from_wheels_.data()) = normal.inverse() * wheels_from_twist.transpose();
 }
 
 WheelValues Kinematics::wheel_speeds(const Twist& twist) const noexcept {
-  const WheelVector w = wheels_from_twist_ * Eigen::Vector3d(twist.vx_mps, twist.vy_mps, twist.wz_radps);
+  const WheelVector w = Eigen::Map<const WheelMatrix>(wheels_from_twist_.data()) *
+                        Eigen::Vector3d(twist.vx_mps, twist.vy_mps, twist.wz_radps);
   return {w[0], w[1], w[2], w[3]};
 }
 
 Twist Kinematics::twist(const WheelValues& speeds_radps) const noexcept {
-  const Eigen::Vector3d t = twist_from_wheels_ * Eigen::Map<const WheelVector>(speeds_radps.data());
+  const Eigen::Vector3d t =
+      Eigen::Map<const TwistMatrix>(twist_from_wheels_.data()) * Eigen::Map<const WheelVector>(speeds_radps.data());
   return {t[0], t[1], t[2]};
 }
 

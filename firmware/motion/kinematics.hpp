@@ -1,7 +1,6 @@
 // Wheels and body: what each wheel must turn for a twist, and which twist four turning wheels make.
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 
 #include "config/base/geometry.hpp"
@@ -43,8 +42,9 @@ class Kinematics {
  private:
   double wheel_radius_m_;
   double max_wheel_radps_;
-  Eigen::Matrix<double, kWheels, 3> wheels_from_twist_;
-  Eigen::Matrix<double, 3, kWheels> twist_from_wheels_;
+  // Matrices, column by column: 4 x 3 and 3 x 4. Eigen is the source's own, since it costs whoever includes it seconds.
+  std::array<double, 3 * kWheels> wheels_from_twist_{};
+  std::array<double, 3 * kWheels> twist_from_wheels_{};
 };
 
 }  // namespace ivo::firmware

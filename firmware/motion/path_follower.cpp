@@ -1,6 +1,5 @@
 #include "firmware/motion/path_follower.hpp"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -21,8 +20,8 @@ bool finite(const Twist& t) noexcept {
   return std::isfinite(t.vx_mps) && std::isfinite(t.vy_mps) && std::isfinite(t.wz_radps);
 }
 
-Eigen::Vector2d turned(const Eigen::Vector2d& v, double cosine, double sine) noexcept {
-  return {cosine * v.x() - sine * v.y(), sine * v.x() + cosine * v.y()};
+Vector2 turned(const Vector2& v, double cosine, double sine) noexcept {
+  return {cosine * v.x - sine * v.y, sine * v.x + cosine * v.y};
 }
 
 // Towards 0 from `error`, at no more than `limit` and no faster than `accel` can stop at 0.
@@ -37,6 +36,13 @@ bool PathFollower::start(std::span<const Point> path, const Pose& pose) noexcept
   reached_ = false;
   heading_rad_ = pose.heading_rad;
   return progress_.start(finite(pose) ? path : std::span<const Point>{}, pose.point());
+}
+
+bool PathFollower::resume(std::span<const Point> path, const Pose& pose, double heading_rad, double left_m) noexcept {
+  reached_ = false;
+  heading_rad_ = heading_rad;
+  const bool known = finite(pose) && std::isfinite(heading_rad);
+  return progress_.resume(known ? path : std::span<const Point>{}, pose.point(), left_m);
 }
 
 PathFollower::Output PathFollower::update(const Input& input) noexcept {
@@ -59,23 +65,24 @@ PathFollower::Output PathFollower::update(const Input& input) noexcept {
 Twist PathFollower::command(const Input& input) const noexcept {
   const double dt_s = std::max(0.0, seconds(input.dt));
   // The angle from the body to the path.
-  const Eigen::Vector2d path =
+  const Vector2 path =
       turned(progress_.leg().direction, std::cos(input.pose.heading_rad), -std::sin(input.pose.heading_rad));
-  const Eigen::Vector2d moving = turned({input.moving.vx_mps, input.moving.vy_mps}, path.x(), -path.y());
+  const Vector2 moving = turned({input.moving.vx_mps, input.moving.vy_mps}, path.x, -path.y);
 
-  const Eigen::Vector2d wanted = reached_ ? Eigen::Vector2d(0, 0) : Eigen::Vector2d(along_mps(), across_mps());
+  const Vector2 wanted = reached_ ? Vector2{} : Vector2{along_mps(), across_mps()};
   const double step_mps = limits_.max_accel_mps2 * dt_s;
   // Each axis is cut before the vector is: a long way to go along the path must not starve the return to it.
-  Eigen::Vector2d step = (wanted - moving).cwiseMin(step_mps).cwiseMax(-step_mps);
-  if (step.norm() > step_mps) {
-    step *= step_mps / step.norm();
+  const Vector2 missing = wanted - moving;
+  Vector2 step{std::clamp(missing.x, -step_mps, step_mps), std::clamp(missing.y, -step_mps, step_mps)};
+  if (norm(step) > step_mps) {
+    step = step_mps / norm(step) * step;
   }
-  Eigen::Vector2d next = moving + step;
-  if (next.norm() > limits_.max_speed_mps) {
-    next *= limits_.max_speed_mps / next.norm();
+  Vector2 next = moving + step;
+  if (norm(next) > limits_.max_speed_mps) {
+    next = limits_.max_speed_mps / norm(next) * next;
   }
-  const Eigen::Vector2d velocity = turned(next, path.x(), path.y());
-  return {velocity.x(), velocity.y(), turn_radps(input)};
+  const Vector2 velocity = turned(next, path.x, path.y);
+  return {velocity.x, velocity.y, turn_radps(input)};
 }
 
 double PathFollower::along_mps() const noexcept {

@@ -37,6 +37,10 @@ class PathFollower {
   /// is no path and commands are 0. Cost: one pass over the points.
   [[nodiscard]] bool start(std::span<const Point> path, const Pose& pose) noexcept;
 
+  /// Goes on along `path` with `left_m` of it to go, holding the heading `heading_rad`; else as start(). The robot is
+  /// at `pose`, which may be beside the path: it returns to it.
+  [[nodiscard]] bool resume(std::span<const Point> path, const Pose& pose, double heading_rad, double left_m) noexcept;
+
   /// One cycle. Without a path, or with a pose that is not finite, the command is 0. Cost: at most twice
   /// PathProgress::kLegsPerCycle legs, whatever the path's length.
   [[nodiscard]] Output update(const Input& input) noexcept;

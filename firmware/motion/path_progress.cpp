@@ -10,16 +10,12 @@ namespace {
 
 constexpr double kShortestLeg_m = 1e-6;
 
-Eigen::Vector2d vector_of(const Point& p) noexcept { return {p.x_m, p.y_m}; }
-
-double left_of(const Eigen::Vector2d& direction, const Eigen::Vector2d& offset) noexcept {
-  return direction.x() * offset.y() - direction.y() * offset.x();
-}
+Vector2 vector_of(const Point& p) noexcept { return {p.x_m, p.y_m}; }
 
 double distance_to(const Leg& leg, const Point& p) noexcept {
-  const Eigen::Vector2d offset = vector_of(p) - leg.from;
-  const double along = std::clamp(offset.dot(leg.direction), 0.0, leg.length_m);
-  return (offset - along * leg.direction).norm();
+  const Vector2 offset = vector_of(p) - leg.from;
+  const double along = std::clamp(dot(offset, leg.direction), 0.0, leg.length_m);
+  return norm(offset - along * leg.direction);
 }
 
 }  // namespace
@@ -49,25 +45,42 @@ bool PathProgress::start(std::span<const Point> path, const Point& from) noexcep
   return true;
 }
 
+bool PathProgress::resume(std::span<const Point> path, const Point& at, double left_m) noexcept {
+  if (path.empty() || !std::isfinite(left_m) || !std::isfinite(at.x_m) || !std::isfinite(at.y_m) ||
+      !start(path, path.front())) {
+    *this = {};
+    return false;
+  }
+  if (left_m > distance_left_m()) {
+    return start(path, at);
+  }
+  while (!on_last_leg() && beyond_m_ >= left_m) {
+    enter(index_ + 1);
+  }
+  passed_m_ = std::clamp(leg_.length_m - (left_m - beyond_m_), 0.0, leg_.length_m);
+  update(at);
+  return true;
+}
+
 void PathProgress::update(const Point& at) noexcept {
   IVO_CONTRACT(has_path());
   for (std::size_t n = 0; n < kLegsPerCycle; ++n) {
-    along_m_ = (vector_of(at) - leg_.from).dot(leg_.direction);
+    along_m_ = dot(vector_of(at) - leg_.from, leg_.direction);
     passed_m_ = std::max(passed_m_, std::clamp(along_m_, 0.0, leg_.length_m));
     if (on_last_leg() || passed_m_ < leg_.length_m) {
       break;
     }
     enter(index_ + 1);
   }
-  cross_track_m_ = left_of(leg_.direction, vector_of(at) - leg_.from);
-  to_end_m_ = (vector_of(vertex(last_index_ + 1)) - vector_of(at)).norm();
+  cross_track_m_ = cross(leg_.direction, vector_of(at) - leg_.from);
+  to_end_m_ = norm(vector_of(vertex(last_index_ + 1)) - vector_of(at));
 }
 
 Leg PathProgress::leg_at(std::size_t index) const noexcept {
   Leg leg;
   leg.from = vector_of(vertex(index));
-  const Eigen::Vector2d span = vector_of(vertex(index + 1)) - leg.from;
-  const double length_m = span.norm();
+  const Vector2 span = vector_of(vertex(index + 1)) - leg.from;
+  const double length_m = norm(span);
   // Written so that a length that is not a number is kept, for start() to see.
   if (!(length_m < kShortestLeg_m)) {
     leg.length_m = length_m;
@@ -78,7 +91,7 @@ Leg PathProgress::leg_at(std::size_t index) const noexcept {
 
 void PathProgress::enter(std::size_t index) noexcept {
   // On a leg without a direction the robot goes on as before.
-  const Eigen::Vector2d direction_before = leg_.direction;
+  const Vector2 direction_before = leg_.direction;
   index_ = index;
   leg_ = leg_at(index);
   if (leg_.length_m <= 0) {

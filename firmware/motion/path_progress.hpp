@@ -1,19 +1,19 @@
 // Where a robot stands along a polyline. Forward only: what is passed stays passed.
 #pragma once
 
-#include <Eigen/Core>
 #include <cstddef>
 #include <span>
 
 #include "config/base/geometry.hpp"
+#include "firmware/motion/vector2.hpp"
 
 namespace ivo::firmware {
 
 /// One straight piece of a path. A piece between points closer than a micrometre has length 0 and no direction of its
 /// own.
 struct Leg {
-  Eigen::Vector2d from = Eigen::Vector2d::Zero();
-  Eigen::Vector2d direction = Eigen::Vector2d::UnitX();
+  Vector2 from;
+  Vector2 direction{1.0, 0.0};
   double length_m = 0.0;
 };
 
@@ -27,6 +27,11 @@ class PathProgress {
   /// Takes up `path`, which stays the caller's and must outlive its use here, for a robot at `from`. False, and no
   /// path, when it is empty or a coordinate is not finite. Cost: one pass over the points.
   [[nodiscard]] bool start(std::span<const Point> path, const Point& from) noexcept;
+
+  /// The same for a robot that had `left_m` of the path before it when it was last on it: what lies before that is
+  /// passed, also where the path crosses itself. More than the path is long: from its beginning, as start(). False, and
+  /// no path, as there, and when `left_m` is not finite.
+  [[nodiscard]] bool resume(std::span<const Point> path, const Point& at, double left_m) noexcept;
 
   /// The robot is at `at` (finite). Only with a path. Cost: at most kLegsPerCycle legs.
   void update(const Point& at) noexcept;

@@ -224,7 +224,11 @@ PoseFilter::Correction PoseFilter::corrected(const Belief& before, const Externa
                             wrapped(measured.pose.heading_rad - before.pose.heading_rad));
   const Eigen::LLT<PoseCovariance> spread(before.covariance + noise);
   // S and P are symmetric, so K is the transpose of S^-1 P.
-  const PoseCovariance gain = spread.solve(before.covariance).transpose();
+  // Column by column: for a matrix Eigen has code that can take memory.
+  PoseCovariance gain;
+  for (Eigen::Index i = 0; i < gain.rows(); ++i) {
+    gain.row(i) = spread.solve(Eigen::Vector3d(before.covariance.col(i))).transpose();
+  }
   const Eigen::Vector3d change = gain * off;
   const PoseCovariance kept = PoseCovariance::Identity() - gain;
   return {{{before.pose.x_m + change[0], before.pose.y_m + change[1], wrapped(before.pose.heading_rad + change[2])},

@@ -43,13 +43,13 @@ double SpeedProfile::braking_speed_mps(double distance_m) const noexcept {
 }
 
 double SpeedProfile::corner_speed_squared(const Leg& before, const Leg& after) const noexcept {
-  const double bend = (after.direction - before.direction).norm();
+  const double bend = norm(after.direction - before.direction);
   if (bend < kStraight) {
     return max_speed_squared_;
   }
-  const double sine = before.direction.x() * after.direction.y() - before.direction.y() * after.direction.x();
+  const double sine = cross(before.direction, after.direction);
   // From 90 degrees on, the velocity also points back along the next leg: all of it is to be lost.
-  const double across = before.direction.dot(after.direction) > 0 ? sine * sine : 1.0;
+  const double across = dot(before.direction, after.direction) > 0 ? sine * sine : 1.0;
   const double corner = 2.0 * accel_mps2_ * kCornerError_m / across;
   const double curve = accel_mps2_ * std::min(before.length_m, after.length_m) / bend;
   return std::max(std::min(corner, curve), 2.0 * accel_mps2_ * kCrawlError_m);

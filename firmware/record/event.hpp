@@ -20,7 +20,7 @@ enum class EventKind : std::uint8_t {
   kFound,          ///< agent; x, y: where the object lay
   kPathsEnded,     //
   kDriveFault,     ///< agent: wheel; code: DriveFaultReason
-  kOverrun,        ///< code: periods skipped
+  kOverrun,        ///< code: periods skipped; agent: Lateness
   kBusState,       ///< code: hal::BusState, changed
   kFaultCleared,   ///< by the operator; the drives start up again
 };

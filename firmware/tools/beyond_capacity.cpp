@@ -1,5 +1,6 @@
 #include "firmware/tools/beyond_capacity.hpp"
 
+#include <cmath>
 #include <string>
 
 #include "config/limits.hpp"
@@ -24,7 +25,7 @@ constexpr Capacity a_node(double many) { return {many * kNodes.micro, many * kNo
 constexpr double kSquaresANode = 2;
 constexpr double kEdgesANode = static_cast<double>(limits::kEdges) / limits::kNodes;
 
-std::string whole(double value) { return shortest(static_cast<double>(static_cast<long long>(value))); }
+std::string whole(double value) { return shortest(std::trunc(value)); }
 
 }  // namespace
 

@@ -14,10 +14,13 @@
 #include "firmware/files/number_text.hpp"
 #include "firmware/tools/bench/bench_command.hpp"
 #include "firmware/tools/colonies.hpp"
+#include "firmware/tools/console_command.hpp"
 #include "firmware/tools/dbc_command.hpp"
+#include "firmware/tools/doctor/doctor_options.hpp"
 #include "firmware/tools/exit_status.hpp"
 #include "firmware/tools/load_command.hpp"
 #include "firmware/tools/plan_options.hpp"
+#include "firmware/tools/profile/profile_options.hpp"
 #include "firmware/tools/run_options.hpp"
 #include "firmware/tools/terminal.hpp"
 #include "firmware/tools/wheels/wheels_options.hpp"
@@ -31,6 +34,7 @@ std::string read_speed(const std::string& text, RunOptions& options) {
     options.max_speed = true;
     return {};
   }
+  options.max_speed = false;
   char* end = nullptr;
   options.speed = std::strtod(text.c_str(), &end);
   const bool whole = end != text.c_str() && *end == '\0';
@@ -100,7 +104,8 @@ std::string command_fault(const CLI::App& app, int argc, const char* const* argv
   std::string names;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App* /*any*/) { return true; })) {
     if (command->get_name() == word) {
-      return place == 1 && word == "wheels" ? command_fault(*command, argc, argv, place + 1) : std::string();
+      return place == 1 && (word == "wheels" || word == "console") ? command_fault(*command, argc, argv, place + 1)
+                                                                   : std::string();
     }
     names += (names.empty() ? "" : ", ") + command->get_name();
   }
@@ -109,6 +114,36 @@ std::string command_fault(const CLI::App& app, int argc, const char* const* argv
   }
   const std::string of = place == 1 ? "" : " of " + app.get_name();
   return (argc > place ? "no command" + of + " is called \"" + word + "\"" : "no command" + of) + "; expected " + names;
+}
+
+void add_tracing(CLI::App& command, RunOptions& options) {
+  command.add_option("--trace", options.trace, "File for every cycle, its phases and frames, for Perfetto")
+      ->check(not_empty);
+  command.add_option("--log", options.log, "File for poses, commands, plans, belief and timing, MCAP, for Foxglove")
+      ->check(not_empty);
+  command.add_flag("--trace-marker", options.trace_marker, "Phases as lines in the kernel's own trace too (root)");
+}
+
+void add_speed(CLI::App& command, RunOptions& options, const char* what) {
+  command.add_option_function<std::string>(
+      "--speed",
+      [&options](const std::string& text) {
+        if (const std::string fault = read_speed(text, options); !fault.empty()) {
+          throw CLI::ValidationError("--speed", fault);
+        }
+      },
+      what);
+}
+
+CLI::App* add_profile(CLI::App& app, ProfileOptions& options) {
+  CLI::App* command = app.add_subcommand("profile", "Say where the time of a mission's cycles goes; nothing moves");
+  command->add_option("MISSION", options.run.mission, "Mission file, as config/missions/courtyard.toml")
+      ->required()
+      ->check(not_empty);
+  add_speed(*command, options.run, "Times real time: cycles begin with cold caches, as a robot's do; or max (default)");
+  command->add_flag("--planning-only", options.planning_only, "End once the plan is ready");
+  add_tracing(*command, options.run);
+  return command;
 }
 
 CLI::App* add_plan(CLI::App& app, PlanOptions& options, std::optional<int>& threads) {
@@ -141,7 +176,7 @@ CLI::App* add_score(CLI::App& app, ScoreOptions& options) {
 }
 
 CLI::App* add_bench(CLI::App& app, bench::CommandOptions& options) {
-  CLI::App* command = app.add_subcommand("bench", "Measure the search core");
+  CLI::App* command = app.add_subcommand("bench", "Measure the search core, the wheel bus and the loop");
   command->add_option("NAME", options.name, "Which bench, or all; without a name a list of them")->check(not_empty);
   command->add_option("--json", options.json, "File for the figures")->check(not_empty);
   command->add_flag("--quick", options.bench.quick, "Shortened: for a look, not for figures");
@@ -190,6 +225,39 @@ CLI::App* add_dbc(CLI::App& app, DbcOptions& options) {
   return command;
 }
 
+CLI::App* add_doctor(CLI::App& app, doctor::Options& options) {
+  CLI::App* command = app.add_subcommand("doctor", "Check a robot's PC, and say how to mend what is wrong");
+  command->add_option("--robot", options.robot, "Robot file (default: as config/robots/ivo.toml)")->check(not_empty);
+  command->add_option("--can", options.can, "CAN interface, as can0: it and its drives are checked too, by reading")
+      ->check(not_empty);
+  add_number(*command, "--cpu", options.cpu, 0, 8191,
+             "The CPU to look at (default: the one that the robot file binds the loop to)");
+  add_number(*command, "--priority", options.priority, 1, 99, "Of the loop's thread (default: the robot file's)");
+  add_number(*command, "--latency", options.latency_s, 0.0, 86400.0,
+             "Seconds of measuring wake-ups (default 5); 0 leaves it out");
+  command->add_option("--out", options.out, "Folder where results will go (default out)")->check(not_empty);
+  command->add_option("--json", options.json, "File for what was found")->check(not_empty);
+  return command;
+}
+
+// In the order of ConsoleVerb.
+CLI::App* add_console(CLI::App& app, ConsoleOptions& options) {
+  CLI::App* console = app.add_subcommand("console", "Ask a controller that runs, or tell it something");
+  console->require_subcommand(1);
+  const auto add = [&](const char* name, const char* what, ConsoleVerb verb) {
+    CLI::App* command = console->add_subcommand(name, what);
+    command->add_option("--socket", options.socket, "As given to ivo run --console (default " + options.socket + ")")
+        ->check(not_empty);
+    command->callback([&options, verb] { options.verb = verb; });
+  };
+  add("status", "What it does, where everybody is, what it asks, counters", ConsoleVerb::kStatus);
+  add("consent", "Agree to the plans: the robot moves", ConsoleVerb::kConsent);
+  add("refuse", "Disagree: the run ends", ConsoleVerb::kRefuse);
+  add("stop", "The robot ramps down, the run ends", ConsoleVerb::kStop);
+  add("clear", "After a fault: start the drives up again; nothing moves before consent anew", ConsoleVerb::kClear);
+  return console;
+}
+
 }  // namespace
 
 int command_line(int argc, const char* const* argv) {
@@ -207,16 +275,11 @@ int command_line(int argc, const char* const* argv) {
       ->check(not_empty);
   run_command->add_flag("--yes", run_options.yes,
                         "Consent to the plans beforehand: the robot moves without a question");
-  run_command->add_option_function<std::string>(
-      "--speed",
-      [&](const std::string& text) {
-        if (const std::string fault = read_speed(text, run_options); !fault.empty()) {
-          throw CLI::ValidationError("--speed", fault);
-        }
-      },
-      "Times real time, or max for a manual clock (virtual bus only; default 1)");
+  add_speed(*run_command, run_options, "Times real time, or max for a manual clock (virtual bus only; default 1)");
   run_command->add_option("--out", run_options.out, "Folder for plan, report, events and picture (default out/MISSION)")
       ->check(not_empty);
+  run_command->add_flag("--resume", run_options.resume,
+                        "Take up the search that was cut off in that folder, after consent; without one begin anew");
   run_command
       ->add_option("--can", run_options.can,
                    "CAN interface, as can0 or vcan0 (default: drives simulated in this process)")
@@ -226,6 +289,18 @@ int command_line(int argc, const char* const* argv) {
   run_command->add_option("--script", run_options.script, "What simulated drives do wrong and when, as of ivo-drives")
       ->check(not_empty);
   run_command->add_option("--record", run_options.record, "File for every frame sent or received, as candump -L")
+      ->check(not_empty);
+  add_tracing(*run_command, run_options);
+  run_command->add_option("--stats", run_options.stats, "File for what the cycles cost, by phase")->check(not_empty);
+  run_command
+      ->add_option("--watchdog", run_options.watchdog,
+                   "The machine's watchdog, as /dev/watchdog: fed while the loop runs (not beside systemd's own)")
+      ->check(not_empty);
+  run_command->add_flag("--no-real-time", run_options.no_real_time,
+                        "Degraded: without real-time priority and locked memory, also on a real interface");
+  run_command
+      ->add_option("--console", run_options.console,
+                   "Path of a socket through which it can be asked and told, by ivo console")
       ->check(not_empty);
 
   PlanOptions plan_options;
@@ -239,8 +314,15 @@ int command_line(int argc, const char* const* argv) {
   CLI::App* const wheels_command = add_wheels(app, wheels_options);
   LoadOptions load_options;
   CLI::App* const load_command = add_load(app, load_options);
+  ProfileOptions profile_options;
+  profile_options.run.max_speed = true;
+  CLI::App* const profile_command = add_profile(app, profile_options);
   DbcOptions dbc_options;
   CLI::App* const dbc_command = add_dbc(app, dbc_options);
+  doctor::Options doctor_options;
+  CLI::App* const doctor_command = add_doctor(app, doctor_options);
+  ConsoleOptions console_options;
+  CLI::App* const console = add_console(app, console_options);
 
   if (const std::string fault = command_fault(app, argc, argv); !fault.empty()) {
     return refuse({fault});
@@ -265,11 +347,20 @@ int command_line(int argc, const char* const* argv) {
     const auto asked = std::ranges::find_if(commands, [](const CLI::App* command) { return command->parsed(); });
     return kWheelsCommands[static_cast<std::size_t>(asked - commands.begin())](wheels_options);
   }
+  if (profile_command->parsed()) {
+    return profile(profile_options);
+  }
   if (load_command->parsed()) {
     return load(load_options);
   }
   if (dbc_command->parsed()) {
     return dbc(dbc_options);
+  }
+  if (doctor_command->parsed()) {
+    return doctor::examine(doctor_options);
+  }
+  if (console->parsed()) {
+    return console_command(console_options);
   }
   run_options.lock_step = clock == "sync";
   return run(run_options);

@@ -3,6 +3,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <string_view>
@@ -42,24 +43,68 @@ std::string_view name_of(StopCause cause) {
   return "operator";
 }
 
+std::string_view name_of(Lateness lateness) {
+  switch (lateness) {
+    case Lateness::kRampDown:
+      return "ramp down";
+    case Lateness::kLatched:
+      return "fault";
+    case Lateness::kHeld:
+      return "hold";
+    case Lateness::kInTime:  // nothing may move
+      break;
+  }
+  return "nothing";
+}
+Error cannot_be_written(const std::string& path) { return {path + ": cannot be written: " + std::strerror(errno)}; }
+
 std::string place(const Event& event) { return field("x_m", event.x) + field("y_m", event.y); }
 
 }  // namespace
 
-Result<EventLog> EventLog::create(const std::string& path, std::vector<std::string> agents) {
-  std::FILE* file = std::fopen(path.c_str(), "a");
+Result<EventLog> EventLog::open(const std::string& path, std::vector<std::string> agents) {
+  std::FILE* file = std::fopen(path.c_str(), "ae");
   if (file == nullptr) {
-    return Error{path + ": cannot be written: " + std::strerror(errno)};
+    return cannot_be_written(path);
   }
   EventLog log(file, path, std::move(agents));
   // Held until the process ends, however it ends.
   if (flock(fileno(file), LOCK_EX | LOCK_NB) != 0) {
     return Error{path + ": another run is writing here; expected a folder of its own for each run"};
   }
-  if (ftruncate(fileno(file), 0) != 0) {
-    return Error{path + ": cannot be written: " + std::strerror(errno)};
-  }
   return log;
+}
+
+Result<void> EventLog::start_anew(const std::string& previous) {
+  const bool empty = std::fseek(file_.get(), 0, SEEK_END) == 0 && std::ftell(file_.get()) == 0;
+  if (!previous.empty() && !empty) {
+    if (std::rename(path_.c_str(), previous.c_str()) != 0) {
+      return cannot_be_written(previous);
+    }
+    Result<EventLog> anew = open(path_, agents_);
+    if (!anew) {
+      return anew.error();
+    }
+    *this = std::move(anew).value();
+  }
+  return ftruncate(descriptor(), 0) == 0 ? Result<void>() : cannot_be_written(path_);
+}
+
+Result<void> EventLog::go_on(const LoggedRun& run, double search_s) {
+  if (ftruncate(descriptor(), static_cast<off_t>(run.whole_bytes)) != 0) {
+    return cannot_be_written(path_);
+  }
+  bytes_ = run.whole_bytes;
+  tracks_ = run.tracks;
+  ended_s_ = run.last_s;
+  shift_.reset();
+  append("{\"t_s\":" + shortest(ended_s_) + field("event", quoted("resumed")) + field("search_time_s", search_s) + "}");
+  return lost_ || std::fflush(file_.get()) != 0 ? cannot_be_written(path_) : Result<void>();
+}
+
+double EventLog::time_s(Instant at) const noexcept {
+  const Duration since = at.time_since_epoch();
+  return seconds(since + shift_.value_or(std::max(Duration::zero(), from_seconds(ended_s_) - since)));
 }
 
 EventLog::EventLog(std::FILE* file, std::string path, std::vector<std::string> agents)
@@ -71,8 +116,10 @@ void EventLog::drain(EventRing& ring) {
     if (event.kind == EventKind::kPosition) {
       tracks_[event.agent].push_back({event.x, event.y});
     }
-    const std::string text = line(event) + "\n";
-    lost_ = lost_ || std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size();
+    if (!shift_) {
+      shift_ = std::max(Duration::zero(), from_seconds(ended_s_) - event.at.time_since_epoch());
+    }
+    append(line(event));
   }
   lost_ = lost_ || ring.lost() > 0 || (any && std::fflush(file_.get()) != 0);
 }
@@ -85,9 +132,15 @@ Result<void> EventLog::close() {
   return {};
 }
 
+void EventLog::append(const std::string& line) {
+  const std::string text = line + "\n";
+  lost_ = lost_ || std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size();
+  bytes_ += text.size();
+}
+
 std::string EventLog::line(const Event& event) const {
   const auto text = [&](std::string_view name, const std::string& fields = {}) {
-    return "{\"t_s\":" + shortest(seconds(event.at.time_since_epoch())) + field("event", quoted(name)) + fields + "}";
+    return "{\"t_s\":" + shortest(time_s(event.at)) + field("event", quoted(name)) + fields + "}";
   };
   const auto agent = [&] { return field("agent", quoted(agents_[event.agent])); };
   switch (event.kind) {
@@ -113,7 +166,8 @@ std::string EventLog::line(const Event& event) const {
     case EventKind::kDriveFault:
       return text("drive fault", field("wheel", std::int32_t{event.agent}) + field("reason", event.code));
     case EventKind::kOverrun:
-      return text("overrun", field("periods", event.code));
+      return text("overrun",
+                  field("periods", event.code) + field("then", quoted(name_of(static_cast<Lateness>(event.agent)))));
     case EventKind::kBusState:
       return text("bus", field("state", quoted(hal::name_of(static_cast<hal::BusState>(event.code)))));
     case EventKind::kFaultCleared:

@@ -1,63 +1,45 @@
 #include "firmware/tools/run_session.hpp"
 
-#include <atomic>
 #include <thread>
 #include <utility>
 
 #include "firmware/files/text_file.hpp"
 #include "firmware/tools/exit_status.hpp"
+#include "firmware/tools/run_stats.hpp"
 #include "firmware/tools/terminal.hpp"
 
 namespace ivo::firmware {
 namespace {
 
-constexpr int kObserveEveryMs = 50;
-constexpr int kObserveEveryCycles = 25;
+constexpr int kAnswerMs = 50;
 constexpr Duration kClearingTakes =
     std::chrono::seconds(10);  // a quick stop's time and a start-up's; then we ask again
 
 }  // namespace
 
-RunSession::RunSession(const RunOptions& options, const RunView& view, ControlLoop& loop, RunWorld& world, EventLog log,
-                       FrameRecord* record)
+RunSession::RunSession(const RunOptions& options, const RunView& view, ControlLoop& loop, RunWorld& world,
+                       RealTimeUse real_time, EventLog log, SearchKeeper& keeper, FrameRecord* record, RunTrace& trace,
+                       RunConsole* console)
     : options_(options),
       view_(view),
       loop_(loop),
       world_(world),
+      real_time_(std::move(real_time)),
+      runner_(loop, world, view.inputs.robot.cycle, real_time_.place),
       log_(std::move(log)),
+      keeper_(keeper),
       record_(record),
-      terminal_(view) {}
+      trace_(trace),
+      console_(console),
+      terminal_(view),
+      consent_(options.yes && !keeper.taken_up()) {}
 
 void RunSession::to_the_end() {
   terminal_.show_mission(world_.description());
-  const Instant begin = world_.clock().now();
-  scheduler_ = Scheduler(begin, view_.inputs.robot.cycle);
-  loop_.open(begin);
-  if (world_.own_time()) {
-    for (int cycle = 0; one_cycle(); ++cycle) {
-      if (cycle % kObserveEveryCycles == 0) {
-        observe(0);
-      }
-    }
-  } else {
-    std::atomic<bool> running{true};
-    std::thread loop([&] {
-      while (one_cycle()) {
-      }
-      running.store(false);
-    });
-    try {
-      while (running.load()) {
-        observe(kObserveEveryMs);
-      }
-    } catch (...) {  // out of memory, say: the loop goes on until the robot stands
-      loop_.request_stop();
-      loop.join();
-      throw;
-    }
-    loop.join();
+  if (!real_time_.text.empty()) {
+    say("loop", real_time_.text);
   }
-  observe(0);
+  runner_.run([this](int wait_ms) { observe(wait_ms); });
 }
 
 int RunSession::write_and_tell() {
@@ -69,17 +51,36 @@ int RunSession::write_and_tell() {
   }
   question_.close();
   terminal_.show_result(outcome, status, plan, world_.lapses());
-  write("report.json", report_json(report_document(view_, plan, status, outcome)));
+  const bool reported = write("report.json", report_json(report_document(view_, plan, status, outcome)));
   if (plan != nullptr) {
     write_picture(*plan, status, outcome);
   }
   const Result<void> recorded = log_.close();
   recorded ? terminal_.show_file(path_of("events.jsonl")) : note(recorded.error());
+  if (!options_.stats.empty()) {
+    (void)write_to(options_.stats,
+                   stats_json({status, loop_.times(), runner_.page_faults(), "CLOCK_MONOTONIC of this host"}));
+  }
   if (record_ != nullptr) {
     const Result<void> closed = record_->close();
     say("recorded", record_->summary());
     if (!closed) {
       note(closed.error());
+    }
+  }
+  for (const RunTrace::Ended& ended : trace_.close()) {
+    say("traced", ended.summary);
+    if (!ended.outcome) {
+      note(ended.outcome.error());
+    }
+  }
+  if (console_ != nullptr) {
+    say("console", console_->close());
+  }
+  // Last: what is not reported has not ended.
+  if (reported) {
+    if (const Result<void> ended = keeper_.end(status, log_); !ended) {
+      note(ended.error());
     }
   }
   if (write_failed_) {
@@ -98,37 +99,31 @@ int RunSession::write_and_tell() {
   return exit_status::kFaultOrStop;
 }
 
-bool RunSession::one_cycle() {
-  hal::Clock& clock = world_.clock();
-  const Instant started = clock.now();
-  loop_.cycle(started, skipped_);
-  world_.after_cycle(loop_);
-  if (loop_.finished() || world_.stalled()) {
-    return false;
-  }
-  skipped_ = scheduler_.advance(started, clock.now());
-  clock.sleep_until(scheduler_.deadline());
-  return true;
-}
-
 // `wait_ms`: how long to sleep while time goes on without us.
 void RunSession::observe(int wait_ms) {
+  // First: the log then tells of all that the status does, which is kept with it.
+  const LoopStatus& status = loop_.status();
   log_.drain(loop_.events());
   if (record_ != nullptr) {
     record_->drain();
   }
-  const LoopStatus& status = loop_.status();
+  trace_.drain();
+  keep(status);
   bool waited = false;
+  if (mode_shown_ != status.mode && show_mode_) {
+    show_mode_(name_of(status.mode));
+  }
+  mode_shown_ = status.mode;
+  asks_ = console::Asks::kNothing;
+  if (consent_.withdrawn_by(status)) {
+    question_.close();
+  }
   switch (status.mode) {
     case Mode::kPlanning:
       terminal_.show_planning(status.planning);
       break;
     case Mode::kStarting:
       show_plan_once(status);
-      if (answered_) {  // the drives were ready, and are not any more: what was said counts for nothing
-        answered_ = false;
-        question_ = {};
-      }
       terminal_.show_starting(status);
       break;
     case Mode::kAwaitingConsent:
@@ -147,6 +142,9 @@ void RunSession::observe(int wait_ms) {
     case Mode::kDone:
       break;
   }
+  if (console_ != nullptr) {
+    show_at_console(status, asks_);
+  }
   if (wait_ms > 0 && !waited) {
     std::this_thread::sleep_for(std::chrono::milliseconds(wait_ms));
   }
@@ -157,39 +155,69 @@ void RunSession::show_plan_once(const LoopStatus& status) {
     return;
   }
   plan_shown_ = true;
-  terminal_.show_plan(loop_.plan());
-  write("plan.json", plan_json(plan_document(view_, loop_.plan(), {status.planning.generation})));
-  write_picture(loop_.plan(), status, {RunEnd::kNoConsent, "the plans, before anybody consented"});
-  if (write_failed_) {  // nobody agrees to what cannot be kept
+  const planner::Plan& plan = loop_.plan();
+  const ResumedSearch* const resumed = keeper_.resumed();
+  const int generations = resumed != nullptr ? resumed->generations : status.planning.generation;
+  trace_.show_plan(plan);
+  terminal_.show_plan(plan);
+  (void)write("plan.json", plan_json(plan_document(view_, plan, {generations})));
+  write_picture(plan, status, {RunEnd::kNoConsent, "the plans, before anybody consented"});
+  if (const Result<void> kept = keeper_.keep_plan(plan, generations, log_); !kept) {
+    keeping_failed_ = true;
+    note(kept.error());
+  }
+  plan_not_kept_ = write_failed_;
+  if (plan_not_kept_) {  // nobody agrees to what cannot be kept
     (void)loop_.command(OperatorCommand::kPlanNotKept);
   }
 }
 
+void RunSession::keep(const LoopStatus& status) {
+  keeper_.observe(status, log_);
+  const std::optional<Error> failure = keeper_.failure();
+  if (failure && !keeping_failed_) {
+    note({failure->message + "; a run that is cut off now loses what it does from here on"});
+  }
+  keeping_failed_ = failure.has_value();
+}
+
 void RunSession::write_picture(const planner::Plan& plan, const LoopStatus& status, const RunOutcome& outcome) {
   const Result<std::string> picture = picture_png(picture_of(view_, plan, status, outcome, log_.tracks()));
-  picture ? write("search.png", picture.value()) : note(picture.error());
+  if (picture) {
+    (void)write("search.png", picture.value());
+  } else {
+    note(picture.error());
+  }
 }
 
 // True when it waited for an answer.
 bool RunSession::seek_consent() {
-  if (answered_ || write_failed_) {
+  if (consent_.answered()) {
     return false;
   }
-  if (options_.yes && !consented_before_) {
-    answered_ = loop_.command(OperatorCommand::kConsent);
+  if (plan_not_kept_) {  // nobody agrees to what cannot be kept
+    consent_.answer(loop_.command(OperatorCommand::kPlanNotKept));
     return false;
   }
-  if (!ConsentQuestion::possible()) {
-    answered_ = loop_.command(OperatorCommand::kNoConsent);
+  if (consent_.beforehand()) {
+    consent_.answer(loop_.command(OperatorCommand::kConsent));
     return false;
   }
-  if (!question_.asked()) {
-    question_.ask("consent", consented_before_ ? "Go on with the search? The robot will move; Ctrl-C stops it. [y/N] "
-                                               : "Start the search? The robot will move; Ctrl-C stops it. [y/N] ");
+  if (nobody_answers()) {
+    consent_.answer(loop_.command(OperatorCommand::kNoConsent));
+    return false;
   }
-  const Answer answer = question_.poll(kObserveEveryMs);
+  if (consent_.ask()) {
+    const bool under_way = consent_.after_fault() || takes_up_a_way();
+    question_.ask("consent", under_way ? "Go on with the search? The robot will move; Ctrl-C stops it. [y/N] "
+                                       : "Start the search? The robot will move; Ctrl-C stops it. [y/N] ");
+    if (!ConsentQuestion::possible()) {
+      say("consent", "is waited for at " + options_.console);
+    }
+  }
+  const Answer answer = answer_to(question_, console::Asks::kConsent);
   if (answer != Answer::kNone) {
-    answered_ = loop_.command(answer == Answer::kYes ? OperatorCommand::kConsent : OperatorCommand::kNoConsent);
+    consent_.answer(loop_.command(answer == Answer::kYes ? OperatorCommand::kConsent : OperatorCommand::kNoConsent));
   }
   return true;
 }
@@ -197,34 +225,65 @@ bool RunSession::seek_consent() {
 // True when it waited for an answer.
 bool RunSession::seek_clearing(const LoopStatus& status) {
   const bool being_cleared = clear_asked_at_ && status.at - *clear_asked_at_ < kClearingTakes;
-  if (!ConsentQuestion::possible() || status.finished || being_cleared) {
+  if (nobody_answers() || status.finished || being_cleared) {
     return false;
   }
   const std::uint8_t turning = status.drive_fault.turning_node_id;
   const bool news = std::exchange(turning_told_, turning) != turning && turning != 0;
   if (!clear_question_.asked() || news) {
+    if (console_ != nullptr) {  // an answer to what was known before is none to this
+      show_at_console(status, console::Asks::kNothing);
+    }
+    question_.close();
     clear_question_.close();
     terminal_.end_line();
     terminal_.show_fault(status);
     clear_question_.ask("fault", "Start the drives up again? Nothing moves before you consent anew. [y/N] ");
   }
-  const Answer answer = clear_question_.poll(kObserveEveryMs);
+  const Answer answer = answer_to(clear_question_, console::Asks::kClearing);
   if (answer == Answer::kYes) {
     (void)loop_.command(OperatorCommand::kClearFault);
     clear_asked_at_ = status.at;
     clear_question_ = {};
-    question_ = {};
-    answered_ = false;
-    consented_before_ = true;
+    consent_.fault_cleared();
   } else if (answer == Answer::kNo) {
     loop_.request_stop();
   }
   return true;
 }
 
-void RunSession::write(const char* name, const std::string& contents) {
-  const Result<void> written = write_file(path_of(name), contents);
-  written ? terminal_.show_file(path_of(name)) : note(written.error());
+bool RunSession::takes_up_a_way() const {
+  const ResumedSearch* const resumed = keeper_.resumed();
+  return resumed != nullptr && resumed->started;
+}
+
+void RunSession::show_at_console(const LoopStatus& status, console::Asks asks) {
+  console_->show(status, asks, takes_up_a_way());
+}
+
+// Of the terminal or the console: who is first.
+Answer RunSession::answer_to(ConsentQuestion& question, console::Asks asks) {
+  asks_ = asks;
+  const Answer typed = question.poll(kAnswerMs);
+  if (typed != Answer::kNone || console_ == nullptr) {
+    return typed;
+  }
+  const Answer answer = console_->answer_to(asks);
+  if (answer != Answer::kNone) {
+    question.close();
+    terminal_.end_line();
+    say(asks == console::Asks::kConsent ? "consent" : "fault",
+        answer == Answer::kYes ? "the console says yes" : "the console says no");
+  }
+  return answer;
+}
+
+bool RunSession::write(const char* name, const std::string& contents) { return write_to(path_of(name), contents); }
+
+bool RunSession::write_to(const std::string& path, const std::string& contents) {
+  const Result<void> written = write_file(path, contents);
+  written ? terminal_.show_file(path) : note(written.error());
+  return written.ok();
 }
 
 void RunSession::note(const Error& error) {

@@ -29,6 +29,14 @@ std::string bus_text(const LoopStatus& status) {
   return state == hal::BusState::kActive ? "" : "  bus: " + std::string(hal::name_of(state));
 }
 
+std::string lateness_text(const LoopStatus& status) {
+  if (status.lateness == Lateness::kInTime) {
+    return "";
+  }
+  return format("  %llu periods lost", static_cast<unsigned long long>(status.counters.skipped)) +
+         (status.lateness == Lateness::kRampDown ? ", slowing down" : "");
+}
+
 }  // namespace
 
 RunTerminal::RunTerminal(const RunView& run) : run_(run) {}
@@ -68,8 +76,8 @@ void RunTerminal::show_search(const LoopStatus& status) {
   constexpr int kParts = 1000;
   const double share = std::min(1.0, seconds(status.search_time) / std::max(1.0, horizon_s_));
   if (line_.due(static_cast<int>(kParts * share), kParts)) {
-    line_.draw("searching",
-               format("%6.1f s", seconds(status.search_time)) + positions(run_, status) + bus_text(status));
+    line_.draw("searching", format("%6.1f s", seconds(status.search_time)) + positions(run_, status) +
+                                bus_text(status) + lateness_text(status));
   }
 }
 
@@ -121,6 +129,9 @@ bool ConsentQuestion::possible() { return isatty(STDIN_FILENO) != 0 && isatty(ST
 
 void ConsentQuestion::ask(const char* label, const char* question) {
   asked_ = true;
+  if (!possible()) {
+    return;
+  }
   (void)tcflush(STDIN_FILENO, TCIFLUSH);  // what was typed before the question was shown is no answer to it
   open_ = true;
   (void)std::printf("%s", labelled(label, question).c_str());
@@ -136,7 +147,7 @@ void ConsentQuestion::close() {
 
 Answer ConsentQuestion::poll(int wait_ms) {
   pollfd input{.fd = STDIN_FILENO, .events = POLLIN, .revents = 0};
-  if (::poll(&input, 1, wait_ms) <= 0) {
+  if (::poll(&input, possible() ? 1 : 0, wait_ms) <= 0) {
     return Answer::kNone;
   }
   std::array<char, 64> text{};

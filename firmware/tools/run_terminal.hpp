@@ -40,6 +40,7 @@ class ConsentQuestion {
  public:
   /// Whether there is a terminal on which somebody sees what is asked and can answer.
   [[nodiscard]] static bool possible();
+  /// Where it is not possible nothing is shown, and nobody answers.
   void ask(const char* label, const char* question);
   /// Waits up to `wait_ms` for a line; a signal ends the wait.
   [[nodiscard]] Answer poll(int wait_ms);

@@ -32,6 +32,8 @@ class VirtualWorld final : public RunWorld {
 
   hal::CanBus& bus() noexcept override { return bus_.port(0); }
   hal::Clock& clock() noexcept override { return max_speed_ ? static_cast<hal::Clock&>(manual_) : paced_; }
+  hal::Clock& stopwatch() noexcept override { return host_; }
+  [[nodiscard]] Time time() const noexcept override { return Time::kSimulated; }
   void after_cycle(const ControlLoop& /*loop*/) noexcept override { drives_.update(clock().now()); }
   [[nodiscard]] std::uint64_t lapses() const noexcept override { return paced_.lapses(); }
   [[nodiscard]] bool own_time() const noexcept override { return max_speed_; }
@@ -42,6 +44,7 @@ class VirtualWorld final : public RunWorld {
 
  private:
   hal::VirtualBus bus_;
+  hal::MonotonicClock host_;
   hal::ManualClock manual_;
   hal::PacedClock paced_;
   bool max_speed_;
@@ -68,6 +71,12 @@ class SocketWorld final : public RunWorld {
 
   hal::CanBus& bus() noexcept override { return bus_; }
   hal::Clock& clock() noexcept override { return clock_; }
+  hal::Clock& stopwatch() noexcept override { return clock_; }
+  [[nodiscard]] Time time() const noexcept override {
+    const hal::InterfaceFacts::Kind kind = bus_.facts().kind;
+    const bool simulated = kind == hal::InterfaceFacts::Kind::kVcan || kind == hal::InterfaceFacts::Kind::kVxcan;
+    return simulated ? Time::kRealOnSimulatedBus : Time::kReal;
+  }
   [[nodiscard]] hal::DigitalInputs* inputs() noexcept override { return inputs_.get(); }
   void after_cycle(const ControlLoop& /*loop*/) noexcept override {}
   [[nodiscard]] bool own_time() const noexcept override { return false; }
@@ -91,6 +100,8 @@ class LockStepWorld final : public RunWorld {
 
   hal::CanBus& bus() noexcept override { return lock_step_; }
   hal::Clock& clock() noexcept override { return lock_step_; }
+  hal::Clock& stopwatch() noexcept override { return host_; }
+  [[nodiscard]] Time time() const noexcept override { return Time::kSimulated; }
   void after_cycle(const ControlLoop& loop) noexcept override {
     lock_step_.expect_answers(loop.answers_awaited());
     for (std::size_t i = 0; i < kWheels; ++i) {
@@ -112,6 +123,7 @@ class LockStepWorld final : public RunWorld {
 
   std::string interface_;
   hal::SocketCanBus bus_;
+  hal::MonotonicClock host_;
   hal::LockStep lock_step_;
 };
 

@@ -19,11 +19,21 @@ class RunWorld {
  public:
   virtual ~RunWorld() = default;
 
+  /// What time is, and whether a lost period says something about a robot.
+  enum class Time : std::uint8_t {
+    kSimulated,           ///< it waits for the loop, or is forgiven to a late host
+    kRealOnSimulatedBus,  ///< as vcan: real time where it is granted, overruns are only counted
+    kReal,                ///< a robot: real time is required
+  };
+
   /// Fails when the interface cannot be used or the options do not fit together.
   [[nodiscard]] static Result<std::unique_ptr<RunWorld>> open(const RunOptions& options, const Robot& robot);
 
   [[nodiscard]] virtual hal::CanBus& bus() noexcept = 0;
   [[nodiscard]] virtual hal::Clock& clock() noexcept = 0;
+  /// The host's time, to measure with; where time is real, clock() itself.
+  [[nodiscard]] virtual hal::Clock& stopwatch() noexcept = 0;
+  [[nodiscard]] virtual Time time() const noexcept = 0;
   /// Emergency stop and bumpers. Those of simulated worlds are never pressed.
   [[nodiscard]] virtual hal::DigitalInputs* inputs() noexcept { return &released_; }
   /// After each cycle, before the sleep.

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "config/base/result.hpp"
-#include "hal/linux/file_descriptor.hpp"
+#include "hal/api/file_descriptor.hpp"
 
 namespace ivo::hal {
 

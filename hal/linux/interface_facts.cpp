@@ -11,7 +11,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "hal/linux/file_descriptor.hpp"
+#include "hal/api/file_descriptor.hpp"
 
 namespace ivo::hal {
 namespace {
@@ -199,14 +199,28 @@ Result<InterfaceFacts> interface_facts(const std::string& name) {
   return Error{"the kernel does not say what interface \"" + name + "\" is: expected an answer to RTM_GETLINK"};
 }
 
+std::string command_for_bit_rate(const std::string& name, std::uint32_t bit_rate_bps) {
+  return "`ip link set " + name + " down; ip link set " + name + " type can bitrate " + std::to_string(bit_rate_bps) +
+         " restart-ms 100; ip link set " + name + " up`";
+}
+
+std::string command_for_queue(const std::string& name) {
+  return "`ip link set " + name + " txqueuelen " + std::to_string(kLongestQueueFrames) + "`";
+}
+
+// Refused while the interface is up (EBUSY).
+std::string command_for_restart(const std::string& name) {
+  return "`ip link set " + name + " down; ip link set " + name + " type can restart-ms 100; ip link set " + name +
+         " up`";
+}
+
 Result<void> check_bit_rate(const InterfaceFacts& facts, std::uint32_t bit_rate_bps) {
   if (facts.bit_rate_bps == 0 || bit_rate_bps == 0 || facts.bit_rate_bps == bit_rate_bps) {
     return {};
   }
   return Error{"CAN interface \"" + facts.name + "\" runs at " + std::to_string(facts.bit_rate_bps) +
-               " bit/s; expected the robot's " + std::to_string(bit_rate_bps) + ": `ip link set " + facts.name +
-               " down; ip link set " + facts.name + " type can bitrate " + std::to_string(bit_rate_bps) +
-               " restart-ms 100; ip link set " + facts.name + " up`"};
+               " bit/s; expected the robot's " + std::to_string(bit_rate_bps) + ": " +
+               command_for_bit_rate(facts.name, bit_rate_bps)};
 }
 
 std::string advice(const InterfaceFacts& facts) {
@@ -216,12 +230,11 @@ std::string advice(const InterfaceFacts& facts) {
   }
   if (facts.queue_frames > kLongestQueueFrames) {
     text = facts.name + " queues " + std::to_string(facts.queue_frames) +
-           " frames, which cannot be called back: `ip link set " + facts.name + " txqueuelen " +
-           std::to_string(kLongestQueueFrames) + "`";
+           " frames, which cannot be called back: " + command_for_queue(facts.name);
   }
   if (facts.restart_ms == 0) {
     text += text.empty() ? facts.name : "; it";
-    text += " stays off after bus-off: `ip link set " + facts.name + " type can restart-ms 100`";
+    text += " stays off after bus-off: " + command_for_restart(facts.name);
   }
   return text;
 }

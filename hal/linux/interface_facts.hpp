@@ -48,6 +48,11 @@ struct LinkAnswer {
 /// For a person: the same with the reason why there are none.
 [[nodiscard]] Result<InterfaceFacts> interface_facts(const std::string& name);
 
+/// The commands that set right what is not: one line to be typed, in full. `name`: of the interface.
+[[nodiscard]] std::string command_for_bit_rate(const std::string& name, std::uint32_t bit_rate_bps);
+[[nodiscard]] std::string command_for_queue(const std::string& name);
+[[nodiscard]] std::string command_for_restart(const std::string& name);
+
 /// Why an interface of a robot whose bus runs at `bit_rate_bps` cannot be used, with the command that sets it right;
 /// nothing of one without a bit rate of its own.
 [[nodiscard]] Result<void> check_bit_rate(const InterfaceFacts& facts, std::uint32_t bit_rate_bps);

@@ -4,7 +4,7 @@
 #include <thread>
 
 #include "config/base/result.hpp"
-#include "hal/linux/file_descriptor.hpp"
+#include "hal/api/file_descriptor.hpp"
 #include "hal/linux/socketcan_bus.hpp"
 
 namespace ivo::hal {

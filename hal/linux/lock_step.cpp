@@ -58,18 +58,21 @@ void LockStep::sleep_until(Instant deadline) noexcept {
 }
 
 void LockStep::await_answers() noexcept {
-  Instant last_progress = host_.now();
+  // In vain, since something came last. A machine that stood still has not waited: each look counts for two at most.
+  Duration waited{};
   while (!stalled_ && !complete() && !bus_gone()) {
+    bool came = false;
     const bool hurry = hurry_.load(std::memory_order_relaxed);
     const Duration patience = hurry ? std::min(options_.patience, kHurry) : options_.patience;
-    const Duration left = last_progress + patience - host_.now();
+    const Duration left = patience - waited;
     if (left <= Duration::zero()) {
       stalled_ = true;
       return;
     }
+    const Instant before = host_.now();
     switch (bus_.wait(std::min(left, kLookUp))) {
       case SocketCanBus::Woken::kByFrame:
-        last_progress = collect() ? host_.now() : last_progress;
+        came = collect();
         break;
       case SocketCanBus::Woken::kBySignal:
         interrupt();
@@ -77,6 +80,7 @@ void LockStep::await_answers() noexcept {
       case SocketCanBus::Woken::kByTime:
         break;
     }
+    waited = came ? Duration::zero() : waited + std::min<Duration>(host_.now() - before, 2 * kLookUp);
   }
 }
 

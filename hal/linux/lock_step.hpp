@@ -24,8 +24,9 @@ namespace ivo::hal {
 /// - otherwise: as many frames as expect_answers() said;
 /// - nothing was ever sent, or nothing is expected: nothing.
 /// Drives that fall silent therefore stop time. Only one limit looks at the host's clock: when `patience` has passed
-/// without a frame that was due, stalled() is true and no later sleep waits, so that the program can end and say so.
-/// A signal during a wait, or interrupt(), leaves kHurry of it, in this wait and in later ones.
+/// without a frame that was due (a machine that stood still in between has not waited), stalled() is true and no later
+/// sleep waits, so that the program can end and say so. A signal during a wait, or interrupt(), leaves kHurry of it, in
+/// this wait and in later ones.
 ///
 /// Frames of our own that come back are no answers. While the bus is lost nothing can be due: time goes on without
 /// waiting, and each sleep looks whether the interface is back. Unconfirmed is not lost here: how long a frame is on

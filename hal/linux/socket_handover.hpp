@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "hal/api/can_bus.hpp"
-#include "hal/linux/file_descriptor.hpp"
+#include "hal/api/file_descriptor.hpp"
 
 namespace ivo::hal {
 

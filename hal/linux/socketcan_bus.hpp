@@ -6,12 +6,13 @@
 #include <span>
 #include <string>
 
+#include "config/base/realtime.hpp"
 #include "config/base/result.hpp"
 #include "config/base/time.hpp"
 #include "hal/api/can_bus.hpp"
+#include "hal/api/file_descriptor.hpp"
 #include "hal/api/transmit_table.hpp"
 #include "hal/linux/error_frame.hpp"
-#include "hal/linux/file_descriptor.hpp"
 #include "hal/linux/interface_facts.hpp"
 
 namespace ivo::hal {
@@ -64,8 +65,8 @@ class SocketCanBus final : public CanBus {
   SocketCanBus& operator=(SocketCanBus&&) noexcept;
   ~SocketCanBus() override;
 
-  std::size_t receive(std::span<ReceivedFrame> frames, Instant now) noexcept override;
-  std::size_t send(std::span<const CanFrame> frames, Instant now) noexcept override;
+  std::size_t receive(std::span<ReceivedFrame> frames, Instant now) noexcept IVO_REALTIME override;
+  std::size_t send(std::span<const CanFrame> frames, Instant now) noexcept IVO_REALTIME override;
   [[nodiscard]] std::span<const CanFrame> handed_over() const noexcept override;
   [[nodiscard]] BusState state() const noexcept override;
   [[nodiscard]] BusCounters counters() const noexcept override;

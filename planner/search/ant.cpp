@@ -445,6 +445,7 @@ void Ant::end_move(Edge e) noexcept {
   time_s_[index(agent_)] = begin_s + world_.seconds_along(agent_, e);
   visit(at_[index(agent_)]);
   EdgePath& path = paths_[index(agent_)];
+  ++moves_made_;
   moves_[index(agent_)][path.size()] = {time_s_[index(agent_)], shown_};
   if (!path.push_back(e) || path.full()) {
     retire();

@@ -47,6 +47,7 @@ class Ant {
   [[nodiscard]] bool done() const noexcept { return phase_ == Phase::kDone; }
   /// Another mission. Cost: the cells with mass, agents times nodes.
   void open() noexcept {
+    moves_made_ = 0;
     sectors_.open();
     lookahead_.open();
     jump_.open(world_.graph);
@@ -59,6 +60,9 @@ class Ant {
   [[nodiscard]] Mass unseen() const noexcept { return unseen_; }
   /// Of Eq. 8, of a complete tour; the exact cost lies inside.
   [[nodiscard]] CostInterval cost() const noexcept;
+
+  /// Edges walked by all ants since open().
+  [[nodiscard]] std::int64_t moves() const noexcept { return moves_made_; }
 
  private:
   enum class Phase : std::uint8_t {
@@ -118,6 +122,7 @@ class Ant {
   Phase phase_ = Phase::kDone;
 
   std::uint32_t ant_number_ = 0;
+  std::int64_t moves_made_ = 0;
   std::array<std::uint32_t, limits::kNodes> visited_{};
   SeenMap seen_;
   int cleared_ = 0;  // bytes of it

@@ -51,6 +51,9 @@ class Colony {
   /// From another colony on the same tables: takes its best when it is better, at the end of a generation.
   void offer(const Tour& tour) noexcept;
 
+  /// Edges walked by ants since start().
+  [[nodiscard]] std::int64_t moves() const noexcept { return ant_.moves(); }
+
   /// What the last part worked on; slices are compared within a kind.
   enum class Phase : std::uint8_t { kAnt, kScoreBest, kScoreAnt, kRaise, kEvaporate, kClamp, kDone };
   [[nodiscard]] Phase phase() const noexcept { return phase_; }

@@ -18,9 +18,10 @@ namespace ivo::planner {
 inline constexpr double kStepSeconds = 1.0;
 
 /// Number of the step, ((k - 1) dt, k dt], that holds `time_s`; 0 from a start. A millionth of a step after its end is
-/// still in it: sums of the same durations in another order must not differ.
+/// still in it: sums of the same durations in another order must not differ. Beyond all that are counted, the last.
 [[nodiscard]] inline std::int32_t step_of(double time_s) noexcept {
-  const double steps = time_s / kStepSeconds - 1e-6;
+  constexpr double kLast = std::numeric_limits<std::int32_t>::max() - 1;
+  const double steps = std::min(time_s / kStepSeconds - 1e-6, kLast);
   const auto whole = static_cast<std::int32_t>(steps);
   return steps <= 0.0 ? 0 : whole + (whole < steps ? 1 : 0);
 }

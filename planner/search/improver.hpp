@@ -47,6 +47,9 @@ class Improver {
     return static_cast<int>(proposals_ / parameters_.proposals_a_generation);
   }
 
+  /// Changes tried since open().
+  [[nodiscard]] std::int64_t proposals() const noexcept { return proposals_; }
+
   [[nodiscard]] bool has_best() const noexcept { return has_best_; }
   /// Exact score of the best plan so far, and its waypoints.
   [[nodiscard]] const PlanScore& best_score() const noexcept { return best_score_; }

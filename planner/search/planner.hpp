@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <variant>
 
+#include "config/base/realtime.hpp"
 #include "planner/numeric/index.hpp"
 #include "planner/prior/preferences.hpp"
 #include "planner/prior/prior.hpp"
@@ -52,7 +53,7 @@ class Planner {
   [[nodiscard]] Refusal prepare(const SearchProblem& problem) noexcept;
 
   /// As Search has them.
-  Progress step(Budget budget) noexcept {
+  Progress step(Budget budget) noexcept IVO_REALTIME {
     search_.step(budget);
     return search_.progress();
   }
@@ -60,6 +61,7 @@ class Planner {
   [[nodiscard]] SliceKind last_slice_kind() const noexcept { return search_.last_slice(); }
   [[nodiscard]] bool last_slice_was_full() const noexcept { return search_.last_slice_was_full(); }
   [[nodiscard]] int last_slice_units() const noexcept { return search_.last_slice_units(); }
+  [[nodiscard]] std::int64_t moves() const noexcept { return search_.moves(); }
   void best_plan(Plan& plan) const noexcept { search_.best_plan(plan); }
 
   /// The first of the searches on these tables; others may be made on world() and started with parameters().

@@ -8,6 +8,7 @@
 #include "planner/search/colony.hpp"
 #include "planner/search/improver.hpp"
 #include "planner/search/plan.hpp"
+#include "planner/search/slice_kind.hpp"
 
 namespace ivo::planner {
 
@@ -23,9 +24,6 @@ struct Progress {
   bool has_plan = false;
   PlanScore best;  ///< when has_plan
 };
-
-/// What a slice worked on. A slice is of one kind: it ends where another begins.
-enum class SliceKind : std::uint8_t { kNone, kAnts, kScore, kTrails, kDrafts, kChanges, kPathScore };
 
 class Search {
  public:
@@ -46,6 +44,8 @@ class Search {
   [[nodiscard]] bool last_slice_was_full() const noexcept { return last_slice_was_full_; }
   /// What it came to: less than its budget where its kind ended.
   [[nodiscard]] int last_slice_units() const noexcept { return last_slice_units_; }
+  /// What was tried since start(): edges walked by ants, changes of a route.
+  [[nodiscard]] std::int64_t moves() const noexcept { return colony_.moves() + improver_.proposals(); }
   [[nodiscard]] Progress progress() const noexcept;
 
   /// The best plan so far; there is one from the first generation on, complete or not. No horizon cuts a plan short: it

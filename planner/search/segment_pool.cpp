@@ -94,8 +94,13 @@ bool SegmentPool::proved(int agent, const Place& from, const Place& to, int& wor
   const auto width = static_cast<std::int32_t>(world_.map.width_m() * kTicksAMetre);
   const auto height = static_cast<std::int32_t>(world_.map.height_m() * kTicksAMetre);
   work += 4;
-  for (const Spot s : {from.spot, to.spot}) {
+  for (const Place* place : {&from, &to}) {
+    const Spot s = place->spot;
     if (s.x < radius || s.y < radius || s.x > width - radius || s.y > height - radius) {
+      return false;
+    }
+    // The node itself may lie nearer to the border than the spot that it is rounded to.
+    if (place->node >= 0 && !inside_border(world_.map, point_at(*place), radius_m)) {
       return false;
     }
   }

@@ -26,6 +26,12 @@ ClassSet restricted_classes(const ClassTable& classes, AgentKind kind) noexcept 
   return static_cast<ClassSet>(set);
 }
 
+bool inside_border(const SegmentedMap& map, Point p, double margin_m) noexcept {
+  constexpr double kRounding = 1e-9;  // a disc that touches the border is inside
+  const double margin = margin_m - kRounding;
+  return p.x_m >= margin && p.y_m >= margin && p.x_m <= map.width_m() - margin && p.y_m <= map.height_m() - margin;
+}
+
 double clearance(const SegmentedMap& map, ClassSet blocked, Point p, double limit_m) noexcept {
   const double border = std::min({p.x_m, p.y_m, map.width_m() - p.x_m, map.height_m() - p.y_m});
   if (border <= 0.0) {

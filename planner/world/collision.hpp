@@ -21,6 +21,9 @@ using ClassSet = std::uint16_t;
 /// farther; 0 inside. Exact. Cost: the pixels within `limit_m`.
 [[nodiscard]] double clearance(const SegmentedMap& map, ClassSet blocked, Point p, double limit_m) noexcept;
 
+/// True when a disc of `margin_m` at `p` stays inside the border; to touch it is to be inside.
+[[nodiscard]] bool inside_border(const SegmentedMap& map, Point p, double margin_m) noexcept;
+
 /// True when a disc of `radius_m` swept along the segment from `a` to `b` overlaps no pixel of a class in `blocked` and
 /// stays inside the border; touching is free, and libccd may take an overlap below 0.1 mm for a touch. Judged on the
 /// swept disc (a capsule) against runs of pixels; no heap. Not there in a build without libccd. Cost: the pixels in the

@@ -59,12 +59,6 @@ bool intersect(const Capsule& capsule, const Box& box) noexcept {
   return ccdMPRIntersect(&capsule, &box, &ccd) != 0;
 }
 
-bool inside_border(const SegmentedMap& map, Point p, double margin_m) noexcept {
-  constexpr double kRounding = 1e-9;  // a disc that touches the border is inside
-  const double margin = margin_m - kRounding;
-  return p.x_m >= margin && p.y_m >= margin && p.x_m <= map.width_m() - margin && p.y_m <= map.height_m() - margin;
-}
-
 // The x that the capsule may reach between the lines y = low and y = high: the segment there, widened by the radius.
 struct Interval {
   double low, high;

@@ -23,7 +23,8 @@ using std::chrono::milliseconds;
 
 constexpr Duration kPatience = std::chrono::seconds(10);  // for what must come; nobody measures how long it took
 constexpr Duration kMoment = milliseconds(300);           // for what must not
-constexpr Duration kStep = milliseconds(1);
+constexpr Duration kStep = milliseconds(1);  // patience is counted in these: a machine that stands still has none
+constexpr Duration kLook = milliseconds(5);  // or in these, where each costs an SDO transfer
 constexpr Duration kBeat = milliseconds(20);
 constexpr std::uint32_t kMasterTimeoutMs = 1000;
 
@@ -92,8 +93,8 @@ std::size_t DriveBench::count(std::uint16_t id) const {
 }
 
 hal::CanFrame DriveBench::expect(const std::string& what, const std::function<bool(const hal::CanFrame&)>& fits) {
-  for (const Instant end = drive_.now() + kPatience; !heard(fits);) {
-    require(drive_.now() < end, "no " + what + " came");
+  for (auto left = kPatience / kStep; !heard(fits); --left) {
+    require(left > 0, "no " + what + " came");
     wait(kStep);
   }
   return *std::find_if(heard_.begin(), heard_.end(), fits);
@@ -123,7 +124,7 @@ void DriveBench::expect_state(NmtState state) {
 
 std::optional<hal::CanFrame> DriveBench::answer() {
   const auto is_answer = [this](const hal::CanFrame& frame) { return frame.id == drivers::cob_id::sdo_answer(node()); };
-  for (const Instant end = drive_.now() + kMoment; drive_.now() < end && !heard(is_answer);) {
+  for (auto left = kMoment / kStep; left > 0 && !heard(is_answer); --left) {
     wait(kStep);
   }
   const auto at = std::find_if(heard_.begin(), heard_.end(), is_answer);
@@ -245,8 +246,7 @@ std::uint16_t DriveBench::statusword() { return static_cast<std::uint16_t>(must_
 void DriveBench::expect_power(PowerState state, const std::string& when) {
   const std::uint16_t bits = drivers::cia402::statusword_bits(state);
   std::uint16_t word = statusword();
-  for (const Instant end = drive_.now() + kPatience;
-       drivers::cia402::power_state(word) != state && drive_.now() < end;) {
+  for (auto left = kPatience / kStep; drivers::cia402::power_state(word) != state && left > 0; --left) {
     wait(kStep);
     word = statusword();
   }
@@ -284,17 +284,17 @@ void DriveBench::bring_to(PowerState state) {
 std::int32_t DriveBench::velocity() { return std::bit_cast<std::int32_t>(must_read(drivers::object::kVelocityActual)); }
 
 void DriveBench::expect_rest(const std::string& when) {
-  for (const Instant end = drive_.now() + kPatience; std::abs(velocity()) > std::abs(speed()) / 20;) {
-    require(drive_.now() < end, when + " the wheel still turns");
-    wait(milliseconds(5));
+  for (auto left = kPatience / kLook; std::abs(velocity()) > std::abs(speed()) / 20; --left) {
+    require(left > 0, when + " the wheel still turns");
+    wait(kLook);
   }
 }
 
 void DriveBench::turn() {
   must_write(drivers::object::kTargetVelocity, 4, std::bit_cast<std::uint32_t>(speed()));
-  for (const Instant end = drive_.now() + kPatience; std::abs(velocity() - speed()) > std::abs(speed()) / 10;) {
-    require(drive_.now() < end, "606Ch does not get to the target velocity");
-    wait(milliseconds(5));
+  for (auto left = kPatience / kLook; std::abs(velocity() - speed()) > std::abs(speed()) / 10; --left) {
+    require(left > 0, "606Ch does not get to the target velocity");
+    wait(kLook);
   }
 }
 

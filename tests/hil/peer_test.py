@@ -8,60 +8,40 @@ us; both sides say what they saw, and tshark reads the recording as a third.
 import json
 import os
 import re
-import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 
 from mission_test import BUILD_DIR, HERE, SOURCE_DIR, SIZES, VCAN, faults
 
+sys.path.insert(0, os.path.join(SOURCE_DIR, "tests", "integration"))
+import npm_packages
+
 PEER = os.path.join(HERE, "peer")
-PACKAGES = os.path.join(SOURCE_DIR, "build", "peer")
 EDS = os.path.join(SOURCE_DIR, "config", "eds", "ivo_drive.eds")
 NODE_ID = 5
 MASTER_NODE_ID = 127
 OPERATIONAL = 5
 
 
-def run(*command, **options):
-    done = subprocess.run(command, capture_output=True, text=True, stdin=subprocess.DEVNULL, check=False, **options)
-    if done.returncode != 0:
-        raise RuntimeError(f"{' '.join(command)}: {done.stdout}{done.stderr}")
-    return done.stdout
-
-
-def install():
-    """The packages of the lock file into build/peer, unless they are there for this version of node."""
-    with open(os.path.join(PEER, "package-lock.json"), encoding="utf-8") as file:
-        wanted = run("node", "--version") + file.read()
-    stamp = os.path.join(PACKAGES, "installed")
-    if os.path.exists(stamp):
-        with open(stamp, encoding="utf-8") as file:
-            if file.read() == wanted:
-                return
-    shutil.rmtree(PACKAGES, ignore_errors=True)
-    os.makedirs(PACKAGES)
-    for name in ("package.json", "package-lock.json", ".npmrc"):
-        shutil.copy(os.path.join(PEER, name), PACKAGES)
-    run("npm", "ci", "--ignore-scripts", cwd=PACKAGES)
+def build_crc(packages):
     # Its only native part is one C file; npm's way to build it needs more, and asks, from version to version, for other permissions.
-    crc = os.path.join(PACKAGES, "node_modules", "node-crc")
+    crc = os.path.join(packages, "node_modules", "node-crc")
     os.makedirs(os.path.join(crc, "build", "Release"))
-    run("gcc", "-O2", "-shared", "-fPIC", "-I/usr/include/node", "-DNODE_GYP_MODULE_NAME=crc", "-DBUILDING_NODE_EXTENSION",
-        os.path.join(crc, "c", "crc.c"), "-o", os.path.join(crc, "build", "Release", "crc.node"))
-    with open(stamp, "w", encoding="utf-8") as file:
-        file.write(wanted)
+    npm_packages.run("gcc", "-O2", "-shared", "-fPIC", "-I/usr/include/node", "-DNODE_GYP_MODULE_NAME=crc",
+                     "-DBUILDING_NODE_EXTENSION", os.path.join(crc, "c", "crc.c"), "-o", os.path.join(crc, "build", "Release", "crc.node"))
 
 
 class ForeignNode(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        install()
+        packages = npm_packages.install(PEER, build_crc)
         scratch = tempfile.TemporaryDirectory(prefix="ivo-hil.", dir="/var/tmp")
         cls.addClassCleanup(scratch.cleanup)
         cls.log = os.path.join(scratch.name, "bus.log")
         done = subprocess.run(
-            [VCAN, os.path.join(HERE, "peer_on_vcan"), BUILD_DIR, PACKAGES, scratch.name, EDS, str(NODE_ID)],
+            [VCAN, os.path.join(HERE, "peer_on_vcan"), BUILD_DIR, packages, scratch.name, EDS, str(NODE_ID)],
             capture_output=True, text=True, stdin=subprocess.DEVNULL, check=False,
         )
 

@@ -119,7 +119,7 @@ class RealTime(unittest.TestCase):
         brought = [("ivo", os.path.join(BUILD_DIR, "ivo")), ("ivo-drives", os.path.join(BUILD_DIR, "ivo-drives")), ("mission", mission),
                    ("faults", os.path.join(SOURCE_DIR, "tests", "rt", "faults_in_guest"))]
         done = subprocess.run(
-            [RT, "-t", "900", "-o", results, *sum((["-f", f"{path}:/given/{name}"] for name, path in brought), []), "sh", "/given/faults"],
+            [RT, "-t", "2400", "-o", results, *sum((["-f", f"{path}:/given/{name}"] for name, path in brought), []), "sh", "/given/faults"],
             capture_output=True, text=True, stdin=subprocess.DEVNULL, check=False,
         )
         if done.returncode != 0:

@@ -17,7 +17,7 @@ def running(process):
     try:
         with open(f"/proc/{process}/stat", encoding="utf-8") as file:
             return file.read().rsplit(")", 1)[1].split()[0] != "Z"
-    except FileNotFoundError:
+    except (FileNotFoundError, ProcessLookupError):
         return False
 
 
@@ -48,7 +48,7 @@ class Bench(unittest.TestCase):
     def test_an_unknown_name_is_refused(self):
         done = ivo("bench", "fastest")
         self.assertEqual(done.returncode, 2)
-        self.assertRegex(done.stderr, r'^ivo: no bench is called "fastest"; expected table1, speed, quality, compare, scale, can, all\n$')
+        self.assertRegex(done.stderr, r'^ivo: no bench is called "fastest"; expected table1, speed, quality, compare, scale, can, loop, all\n$')
         for path in ("/nowhere/records.json", os.path.dirname(self.json)):  # at once, not after the work
             done = ivo("bench", "all", "--json", path)
             self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1))

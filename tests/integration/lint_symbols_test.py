@@ -7,13 +7,13 @@ import unittest
 import lint
 
 
-def symbols(source):
+def symbols(source, name="part", *options):
     """(exit status, output) of the lint over a library of one source."""
     with tempfile.TemporaryDirectory() as folder:
-        part, archive = os.path.join(folder, "part.o"), os.path.join(folder, "libpart.a")
+        part, archive = os.path.join(folder, name + ".o"), os.path.join(folder, "libpart.a")
         subprocess.run(["c++", "-std=c++20", "-O2", "-x", "c++", "-", "-c", "-o", part], input=source, text=True, check=True)
         subprocess.run(["ar", "rcs", archive, part], check=True)
-        done = subprocess.run([os.path.join(lint.SOURCE_DIR, "toolchain/lint/symbols"), archive], capture_output=True, text=True)
+        done = subprocess.run([os.path.join(lint.SOURCE_DIR, "toolchain/lint/symbols"), *options, archive], capture_output=True, text=True)
         return done.returncode, done.stdout + done.stderr
 
 
@@ -40,6 +40,18 @@ class Symbols(unittest.TestCase):
     def test_refuses_text_and_files(self):
         self.refuses('#include <cstdio>\nvoid f(int n) { std::printf("%d", n); }', "printf", "text formatting")
         self.refuses('#include <cstdio>\nauto f() { return std::fopen("a", "r"); }', "fopen", "a file")
+
+    def test_refuses_locks(self):
+        self.refuses("#include <mutex>\nstd::mutex m;\nvoid f() { m.lock(); }", "pthread_mutex_lock", "a lock")
+        self.refuses("int g();\nint f() { static const int once = g(); return once; }", "__cxa_guard_acquire", "a lock")
+        self.refuses("#include <atomic>\nvoid f(std::atomic<int>& a) { a.wait(3); }", "syscall", "a lock")
+
+    def test_leaves_out_sentences_and_what_runs_before_the_loop(self):
+        source = "int* f() { return new int; }"
+        self.assertEqual(symbols(source, "fault_text"), (0, ""))
+        self.assertEqual(symbols(source, "reader", "--before-the-loop=write*,read*")[0], 1, "write* is not there")
+        self.assertEqual(symbols(source, "reader", "--before-the-loop=read*"), (0, ""))
+        self.assertEqual(symbols(source, "reader", "--before-the-loop=read")[0], 1)
 
     def test_accepts_sums_traps_and_a_virtual_destructor(self):
         source = "#include <cmath>\nstruct A { virtual ~A(); virtual double f(double x); };\nA::~A() = default;\n"

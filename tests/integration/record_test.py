@@ -7,6 +7,7 @@ import resource
 import signal
 import subprocess
 import tempfile
+import time
 import unittest
 
 from mission_files import IVO, MISSION, SOURCE_DIR, ivo, read_json, write_mission
@@ -119,11 +120,14 @@ class Record(unittest.TestCase):
         for line in process.stdout:
             if line.startswith("searching"):
                 break
+        enabled = " 201#0F0000000000"  # the record is written every few hundredths of a second
+        while process.poll() is None and not any(line.endswith(enabled) for line in lines_of(self.log)):
+            time.sleep(0.01)
         process.kill()
         process.communicate()
         lines = lines_of(self.log)
         self.assertTrue(all(LINE.match(line) for line in lines))
-        self.assertTrue(any(line.endswith(" 201#0F0000000000") for line in lines), "enabled drives are in it")
+        self.assertTrue(any(line.endswith(enabled) for line in lines), "enabled drives are in it")
 
     def test_ivo_load_finds_the_load_that_was_computed(self):
         self.assertEqual(self.search().returncode, 0)

@@ -59,7 +59,8 @@ class Refusals(unittest.TestCase):
     def test_install_names_an_unknown_section(self):
         status, _, said = run(os.path.join(TOOLCHAIN, "install"), "toys")
         self.assertEqual(status, 2)
-        self.assertEqual(said, "toolchain/install: no packages in section 'toys'; expected one of build run test fuzz rt peer cross\n")
+        self.assertEqual(
+            said, "toolchain/install: no packages in section 'toys'; expected one of build run test package rtsan fuzz rt picture peer cross\n")
 
     def test_the_entry_points_say_how_they_are_called(self):
         for script, argument in (("test", "--fast"), ("fresh", "walk"), ("fuzz", "--week"), ("rt", "-x")):

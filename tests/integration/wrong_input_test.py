@@ -92,6 +92,11 @@ class WrongInput(unittest.TestCase):
         # Without CAN in the kernel the line says that; with it, that there is no such interface. Both on vcan: tests/hil.
         self.refused(["run", write_mission(self.folder), "--yes", "--can", "can77"], ["CAN"])
 
+    def test_a_watchdog_that_cannot_be_fed_is_refused(self):
+        mission = write_mission(self.folder)
+        self.refused(["run", mission, "--yes", "--watchdog", "/dev/nope"], ["/dev/nope", "expected a device"])
+        self.refused(["run", mission, "--yes", "--watchdog", "/dev/null"], ["/dev/null", "expected a device as /dev/watchdog"])
+
     def test_options_that_do_not_fit_together_are_refused(self):
         mission = write_mission(self.folder)
         self.refused(["run", mission, "--clock", "sync"], ["--clock sync", "--can"])
@@ -102,12 +107,12 @@ class WrongInput(unittest.TestCase):
     def test_an_unknown_command_is_refused_with_those_that_there_are(self):
         done = ivo("bogus")
         self.assertEqual((done.returncode, done.stderr),
-                         (2, 'ivo: no command is called "bogus"; expected run, plan, score, bench, wheels, load, dbc\n'))
+                         (2, 'ivo: no command is called "bogus"; expected run, plan, score, bench, wheels, load, profile, dbc, doctor, console\n'))
 
     def test_a_command_line_that_makes_no_sense_is_refused(self):
         for args, says in (
-            ([], "no command; expected run, plan, score, bench, wheels, load, dbc"),
-            (["--version"], 'no command is called "--version"; expected run, plan, score, bench, wheels, load, dbc'),
+            ([], "no command; expected run, plan, score, bench, wheels, load, profile, dbc, doctor, console"),
+            (["--version"], 'no command is called "--version"; expected run, plan, score, bench, wheels, load, profile, dbc, doctor, console'),
             (["run"], "MISSION is required"),
             (["run", ""], "MISSION: is empty; expected a name"),
             (["score", "x.toml", ""], "PLAN: is empty; expected a name"),

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <initializer_list>
+#include <utility>
 
 extern "C" {
 void* __libc_malloc(std::size_t size);                           // NOLINT(bugprone-reserved-identifier): glibc's names
@@ -40,6 +41,9 @@ namespace ivo::test {
 
 NoHeap::NoHeap() noexcept { ++trapped; }
 NoHeap::~NoHeap() { --trapped; }
+
+HeapAgain::HeapAgain() noexcept : held_(std::exchange(trapped, 0)) {}
+HeapAgain::~HeapAgain() { trapped = held_; }
 
 }  // namespace ivo::test
 

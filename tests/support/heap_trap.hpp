@@ -12,7 +12,17 @@ class NoHeap {
   NoHeap(const NoHeap&) = delete;
   NoHeap& operator=(const NoHeap&) = delete;
 };
-inline constexpr bool kHeapIsTrapped = true;
+/// Within a NoHeap, for a double that stands where the heap is trapped and that no robot has.
+class HeapAgain {
+ public:
+  HeapAgain() noexcept;
+  ~HeapAgain();
+  HeapAgain(const HeapAgain&) = delete;
+  HeapAgain& operator=(const HeapAgain&) = delete;
+
+ private:
+  int held_;
+};
 #else
 class NoHeap {
  public:
@@ -21,7 +31,13 @@ class NoHeap {
   NoHeap(const NoHeap&) = delete;
   NoHeap& operator=(const NoHeap&) = delete;
 };
-inline constexpr bool kHeapIsTrapped = false;
+class HeapAgain {
+ public:
+  HeapAgain() noexcept {}
+  ~HeapAgain() {}
+  HeapAgain(const HeapAgain&) = delete;
+  HeapAgain& operator=(const HeapAgain&) = delete;
+};
 #endif
 
 }  // namespace ivo::test

@@ -16,7 +16,8 @@ namespace ivo::test {
 
 class RandomSearch {
  public:
-  explicit RandomSearch(std::mt19937_64& random) : random_(random), map_(between(7.0, 15.0), between(6.0, 11.0), 0.25) {
+  explicit RandomSearch(std::mt19937_64& random)
+      : random_(random), height_m_(between(6.0, 11.0)), map_(between(7.0, 15.0), height_m_, 0.25) {
     draw_map();
     problem_.map = map_.view();
     problem_.cell_m = chance(0.5) ? 0.5 : 0.25;
@@ -42,6 +43,11 @@ class RandomSearch {
  private:
   double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
   bool chance(double p) { return between(0.0, 1.0) < p; }
+  // One draw a statement: compilers differ in the order of a call's arguments.
+  Point size_between(double least_m, double most_m) {
+    const double height_m = between(least_m, most_m);
+    return {between(least_m, most_m), height_m};
+  }
   Point anywhere() { return {between(0.0, map_.view().width_m()), between(0.0, map_.view().height_m())}; }
 
   void draw_map() {
@@ -50,7 +56,8 @@ class RandomSearch {
                                                       SemanticClass::kStairs};
     for (int i = 0; i < 6; ++i) {
       const Point p = anywhere();
-      map_.put(kThings[random_() % kThings.size()], p.x_m, p.y_m, p.x_m + between(0.3, 2.0), p.y_m + between(0.3, 2.0));
+      const Point size = size_between(0.3, 2.0);
+      map_.put(kThings[random_() % kThings.size()], p.x_m, p.y_m, p.x_m + size.x_m, p.y_m + size.y_m);
     }
   }
 
@@ -79,8 +86,8 @@ class RandomSearch {
     agent.body.footprint_radius_m = chance(0.4) ? 0.30 : between(0.05, 0.45);
     for (int i = 0; i < 2 && chance(0.3); ++i) {
       const Point p = anywhere();
-      (void)agent.body.restricted.push_back(
-          rectangle(p.x_m, p.y_m, p.x_m + between(0.2, 3.0), p.y_m + between(0.2, 3.0)));
+      const Point size = size_between(0.2, 3.0);
+      (void)agent.body.restricted.push_back(rectangle(p.x_m, p.y_m, p.x_m + size.x_m, p.y_m + size.y_m));
     }
     for (int i = 0; preferences && i < 2 && chance(0.5); ++i) {
       const Point p = anywhere();
@@ -89,6 +96,7 @@ class RandomSearch {
   }
 
   std::mt19937_64& random_;
+  double height_m_;
   DrawnMap map_;
   std::vector<planner::GaussianComponent> gaussians_;
   std::vector<std::uint16_t> image_;

@@ -9,6 +9,7 @@
 
 #include "config/limits.hpp"
 #include "hal/api/can_bus.hpp"
+#include "tests/support/beside_the_loop.hpp"
 #include "tests/support/shadow_model.hpp"
 
 namespace ivo::test {
@@ -28,6 +29,7 @@ class RoughBus final : public hal::CanBus {
   Roughness roughness;
 
   std::size_t receive(std::span<hal::ReceivedFrame> frames, Instant now) noexcept override {
+    const BesideTheLoop beside;
     std::vector<hal::ReceivedFrame> arrived(frames.size());
     arrived.resize(inner_.receive(arrived, now));
     std::size_t count = 0;
@@ -84,12 +86,14 @@ class ShadowedBus final : public hal::CanBus {
 
   std::size_t receive(std::span<hal::ReceivedFrame> frames, Instant now) noexcept override {
     const std::size_t count = inner_.receive(frames, now);
+    const BesideTheLoop beside;
     for (const hal::ReceivedFrame& received : frames.first(count)) {
       shadow_.received(received.frame);
     }
     return count;
   }
   std::size_t send(std::span<const hal::CanFrame> frames, Instant now) noexcept override {
+    const BesideTheLoop beside;
     std::vector<hal::CanFrame> leaving(frames.begin(), frames.end());
     if (plant) {
       plant(leaving);

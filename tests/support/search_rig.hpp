@@ -15,13 +15,14 @@
 #include "hal/api/digital_io.hpp"
 #include "hal/sim/virtual_bus.hpp"
 #include "tests/support/drawn_map.hpp"
+#include "tests/support/heap_trap.hpp"
 
 namespace ivo::test {
 
 class SearchRig {
  public:
   struct Options {
-    std::optional<Point> object;
+    std::optional<Point> object{};
     drivers::SimDrives::Scripts scripts{};
     int generations = 3;
     bool fault_waits = false;
@@ -31,6 +32,13 @@ class SearchRig {
     hal::DigitalInputs* inputs = nullptr;
     /// kShared: at 1 kHz.
     PdoLayout layout = PdoLayout::kOwn;
+    bool overruns_count_only = false;
+    /// Phases are measured with it, and the planner's slices sized by it.
+    hal::Clock* stopwatch = nullptr;
+    /// Cycles are traced, by a clock that sizes nothing.
+    firmware::Tracer* tracer = nullptr;
+    hal::Clock* trace_stopwatch = nullptr;
+    const firmware::ResumedSearch* resumed = nullptr;
   };
 
   explicit SearchRig(const Options& options)
@@ -41,6 +49,11 @@ class SearchRig {
     (void)setup.searchers.push_back({.kind = AgentKind::kRobot, .start = {1.5, 1.5}, .speed_mps = 0.5});
     (void)setup.searchers.push_back({.kind = AgentKind::kPerson, .start = {10.5, 1.5}, .speed_mps = 0.5});
     setup.fault_waits = options.fault_waits;
+    setup.overruns_count_only = options.overruns_count_only;
+    setup.stopwatch = options.stopwatch != nullptr ? options.stopwatch : options.trace_stopwatch;
+    setup.tracer = options.tracer;
+    setup.resumed = options.resumed;
+    setup.real_time = options.stopwatch != nullptr;
     if (options.inputs != nullptr) {
       setup.robot.inputs = {.chip = "gpiochip0", .emergency_stop = InputLine{}, .bumpers = {InputLine{}}};
       setup.inputs = options.inputs;
@@ -56,11 +69,27 @@ class SearchRig {
 
   /// One cycle, then the drives answer and a period passes.
   const firmware::LoopStatus& cycle(std::int64_t skipped = 0) {
-    loop_->cycle(now_, skipped);
+    {
+      const NoHeap no_heap;  // of every cycle of every test, in the preset noheap
+      loop_->cycle({.now = now_, .skipped = skipped});
+    }
     drives_.update(now_);
     now_ += robot_.cycle;
     true_position_.x_m += velocity({1, 1, 1, 1}) * seconds(robot_.cycle);
     true_position_.y_m += velocity({-1, 1, 1, -1}) * seconds(robot_.cycle);
+    return loop_->status();
+  }
+  /// A cycle that comes `periods` too late, and is told so.
+  const firmware::LoopStatus& late_cycle(int periods) {
+    be_late(periods);
+    return cycle(periods);
+  }
+  /// A cycle that wakes at `at`, in phase or not; the drives have answered in every period until then.
+  const firmware::LoopStatus& cycle_at(Instant at, std::int64_t skipped) {
+    for (; now_ + robot_.cycle <= at; now_ += robot_.cycle) {
+      drives_.update(now_);
+    }
+    loop_->cycle({.now = at, .skipped = skipped});
     return loop_->status();
   }
   /// The loop oversleeps; the drives do not.

@@ -10,7 +10,7 @@
 namespace ivo::firmware::bench {
 namespace {
 
-constexpr std::array<Bench, 6> kBenches = {{
+constexpr std::array<Bench, 7> kBenches = {{
     {"table1", "the paper's Table I: eight rows, both heuristics, beside the paper's figures", table1},
     {"speed", "400 generations of 10 ants in the paper's profile, tables apart", speed},
     {"quality", "the fast profile's expected time after 0.1, 1 and 10 s, beside the bound", quality},
@@ -18,6 +18,10 @@ constexpr std::array<Bench, 6> kBenches = {{
     {"scale", "the cost of a generation from 100 nodes up, and real maps and priors", scale},
     {"can", "the wheel bus: its cost, its load, and each of 28 faults provoked on a kernel's own bus", can,
      table_with_faults},
+    {"loop",
+     "a cycle by phase on the virtual bus, planning or not, traced or not, here and in toolchain/rt; what the objects "
+     "weigh",
+     loop},
 }};
 
 double worst_of(const std::vector<double>& values, Sense good) {

@@ -84,5 +84,6 @@ void quality(const Options& options, Sheet& sheet);
 void scale(const Options& options, Sheet& sheet);
 void compare(const Options& options, Sheet& sheet);
 void can(const Options& options, Sheet& sheet);
+void loop(const Options& options, Sheet& sheet);
 
 }  // namespace ivo::firmware::bench

@@ -1,6 +1,6 @@
 #include "firmware/tools/wheels/turn_loop.hpp"
 
-#include "firmware/loop/scheduler.hpp"
+#include "firmware/loop/overrun_policy.hpp"
 #include "firmware/tools/stop_signal.hpp"
 
 namespace ivo::firmware::wheels {

@@ -21,6 +21,7 @@ WheelTurner::WheelTurner(hal::CanBus& bus, const Robot& robot, hal::DigitalInput
     : bus_(bus, slow(robot)),
       drives_(bus_, robot),
       stop_inputs_(robot.inputs),
+      latch_at_(robot.loop.latch_at),
       inputs_(inputs),
       cycle_(robot.cycle),
       longest_step_(2 * robot.cycle) {
@@ -69,7 +70,7 @@ void WheelTurner::drain_bus() noexcept {
 
 void WheelTurner::look_at_drives(std::int64_t late) noexcept {
   wheels_ = drives_.update(now_);
-  if (enable_ && late >= rates::kLatestPeriods) {
+  if (enable_ && late >= latch_at_) {
     fail({.reason = DriveFaultReason::kCycleLate, .code = static_cast<std::uint32_t>(late)});
   }
   const hal::DigitalSnapshot snapshot = inputs_ != nullptr ? inputs_->snapshot(now_) : hal::DigitalSnapshot{};

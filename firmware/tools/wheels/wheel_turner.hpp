@@ -87,7 +87,7 @@ class WheelTurner {
     bool other = false;  ///< another key came, which is no end: somebody is there
     bool end = false;    ///< stop, power off, end
   };
-  /// `skipped`: periods lost before it; rates::kLatestPeriods of them under power are a fault.
+  /// `skipped`: periods lost before it; LoopParameters::latch_at of them under power are a fault.
   const TurnStatus& cycle(Instant now, std::int64_t skipped, const Keys& keys) noexcept;
 
   [[nodiscard]] bool ended() const noexcept { return status_.phase == TurnPhase::kEnded; }
@@ -110,6 +110,7 @@ class WheelTurner {
   GuardedBus bus_;
   drivers::DriveGroup drives_;
   StopInputs stop_inputs_;
+  int latch_at_;
   hal::DigitalInputs* inputs_;
   Duration cycle_;
   Duration longest_step_;

@@ -83,13 +83,6 @@ class BareGroup {
   std::vector<hal::CanFrame> sent;  // in the last cycle
 };
 
-Robot shared_robot() {
-  Robot robot = test_robot();
-  robot.pdo_layout = PdoLayout::kShared;
-  robot.cycle = milliseconds(1);
-  return robot;
-}
-
 TEST(BareGroup, IsReadyThoughEverySdoIsAnsweredTwentyMillisecondsLate) {
   BareGroup rig(test_robot());
   for (BareNode& node : rig.nodes) {

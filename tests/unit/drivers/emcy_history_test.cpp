@@ -10,38 +10,38 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-Instant at(Duration d) { return Instant(d); }
+Instant after(Duration d) { return Instant(d); }
 
 TEST(EmcyHistory, KeepsWhatEachEmergencySaid) {
   EmcyHistory history;
-  EXPECT_TRUE(history.add({0x8130, 0x11, {1, 2, 3, 4, 5}}, at(milliseconds(7))));
+  EXPECT_TRUE(history.add({0x8130, 0x11, {1, 2, 3, 4, 5}}, after(milliseconds(7))));
   ASSERT_EQ(history.entries().size(), 1U);
   const EmcyEntry& entry = history.entries()[0];
   EXPECT_EQ(entry.emergency, (Emergency{0x8130, 0x11, {1, 2, 3, 4, 5}}));
-  EXPECT_EQ(entry.first, at(milliseconds(7)));
+  EXPECT_EQ(entry.first, after(milliseconds(7)));
   EXPECT_EQ(entry.count, 1U);
 }
 
 TEST(EmcyHistory, CountsRepeatsTogetherThoughOthersComeInBetween) {
   EmcyHistory history;
   for (int i = 0; i < 1000; ++i) {
-    const bool fresh = history.add({0x2310, 2, {}}, at(milliseconds(2 * i)));
+    const bool fresh = history.add({0x2310, 2, {}}, after(milliseconds(2 * i)));
     EXPECT_EQ(fresh, i == 0);
-    EXPECT_EQ(history.add({0x4310, 8, {}}, at(milliseconds(2 * i + 1))), i == 0);
+    EXPECT_EQ(history.add({0x4310, 8, {}}, after(milliseconds(2 * i + 1))), i == 0);
   }
   ASSERT_EQ(history.entries().size(), 2U);
   EXPECT_EQ(history.entries()[0].count, 1000U);
-  EXPECT_EQ(history.entries()[0].first, at(milliseconds(0)));
-  EXPECT_EQ(history.entries()[0].last, at(milliseconds(1998)));
+  EXPECT_EQ(history.entries()[0].first, after(milliseconds(0)));
+  EXPECT_EQ(history.entries()[0].last, after(milliseconds(1998)));
   EXPECT_EQ(history.total(), 2000U);
   EXPECT_EQ(history.forgotten(), 0U);
 }
 
 TEST(EmcyHistory, TellsTheSameCodeAnewAfterASecondOfPeace) {
   EmcyHistory history;
-  EXPECT_TRUE(history.add({0x2310, 2, {}}, at(seconds(1))));
-  EXPECT_FALSE(history.add({0x2310, 2, {}}, at(seconds(2))));
-  EXPECT_TRUE(history.add({0x2310, 2, {}}, at(seconds(3) + Duration(1))));
+  EXPECT_TRUE(history.add({0x2310, 2, {}}, after(seconds(1))));
+  EXPECT_FALSE(history.add({0x2310, 2, {}}, after(seconds(2))));
+  EXPECT_TRUE(history.add({0x2310, 2, {}}, after(seconds(3) + Duration(1))));
   EXPECT_EQ(history.entries().size(), 2U);
 }
 
@@ -49,7 +49,7 @@ TEST(EmcyHistory, TellsNoMoreThanEightNewOnesASecondInAStorm) {
   EmcyHistory history;
   int told = 0;
   for (int i = 0; i < 10'000; ++i) {  // ten seconds of ever other codes
-    told += history.add({static_cast<std::uint16_t>(i + 1), 1, {}}, at(milliseconds(i))) ? 1 : 0;
+    told += history.add({static_cast<std::uint16_t>(i + 1), 1, {}}, after(milliseconds(i))) ? 1 : 0;
   }
   EXPECT_LE(told, 10 * static_cast<int>(EmcyHistory::kNewEntries));
   EXPECT_GE(told, 9 * static_cast<int>(EmcyHistory::kNewEntries));
@@ -61,7 +61,7 @@ TEST(EmcyHistory, TellsNoMoreThanEightNewOnesASecondInAStorm) {
 TEST(EmcyHistory, PushesTheOldestOut) {
   EmcyHistory history;
   for (std::uint16_t i = 1; i <= EmcyHistory::kEntries + 3; ++i) {
-    history.add({i, 1, {}}, at(seconds(2 * i)));
+    history.add({i, 1, {}}, after(seconds(2 * i)));
   }
   EXPECT_EQ(history.entries()[0].emergency.code, 4);
   EXPECT_EQ(history.entries().back().emergency.code, EmcyHistory::kEntries + 3);

@@ -12,13 +12,6 @@ namespace {
 
 using std::chrono::milliseconds;
 
-Robot shared_robot() {
-  Robot robot = test_robot();
-  robot.pdo_layout = PdoLayout::kShared;
-  robot.cycle = milliseconds(1);
-  return robot;
-}
-
 GroupChannels channels_of(const Robot& robot) {
   GroupChannels channels;
   for (std::size_t i = 0; i < channels.size(); ++i) {

@@ -16,7 +16,7 @@ namespace {
 using std::chrono_literals::operator""ms;
 using std::chrono_literals::operator""us;
 
-constexpr std::uint32_t kMbit = 1'000'000;  // a bit is a microsecond
+constexpr std::uint32_t kMegabit = 1'000'000;  // a bit is a microsecond
 
 std::map<std::uint16_t, Duration> worst_of(const BusSchedule& schedule, std::uint32_t bit_rate_bps) {
   std::map<std::uint16_t, Duration> worst;
@@ -27,7 +27,7 @@ std::map<std::uint16_t, Duration> worst_of(const BusSchedule& schedule, std::uin
   return worst;
 }
 
-Robot shared_robot() {
+Robot robot_of_pairs() {
   Robot robot;
   robot.pdo_layout = PdoLayout::kShared;
   robot.cycle = 1ms;
@@ -35,21 +35,21 @@ Robot shared_robot() {
 }
 
 TEST(ResponseTime, OfSyncIsItsLengthBehindOneFrameThatHasJustBegun) {
-  EXPECT_EQ(worst_of(schedule_of(Robot{}), kMbit)[0x080], 135us + 55us);
+  EXPECT_EQ(worst_of(schedule_of(Robot{}), kMegabit)[0x080], 135us + 55us);
 }
 
 // SYNC, four TPDO1 and four RPDO1 one behind the other take 975 us at worst.
 TEST(ResponseTime, OfTheLastCommandIsTheWholeCyclesFrames) {
-  EXPECT_EQ(worst_of(schedule_of(Robot{}), kMbit)[0x204], 135us + 975us);
+  EXPECT_EQ(worst_of(schedule_of(Robot{}), kMegabit)[0x204], 135us + 975us);
 }
 
 TEST(ResponseTime, AtHalfTheBitRateIsTwice) {
-  std::map<std::uint16_t, Duration> slow = worst_of(schedule_of(Robot{}), kMbit / 2);
+  std::map<std::uint16_t, Duration> slow = worst_of(schedule_of(Robot{}), kMegabit / 2);
   EXPECT_EQ(slow[0x080], 2 * 190us);
 }
 
 TEST(ResponseTime, IsGivenByPriority) {
-  const ResponseTimes times = response_times(schedule_of(Robot{}), kMbit);
+  const ResponseTimes times = response_times(schedule_of(Robot{}), kMegabit);
   EXPECT_EQ(times.size(), schedule_of(Robot{}).size());
   for (std::size_t i = 1; i < times.size(); ++i) {
     EXPECT_LT(times[i - 1].frame.id, times[i].frame.id);
@@ -151,9 +151,9 @@ class SimulatedBus {
 };
 
 TEST(ResponseTime, IsNeverExceededOnASimulatedBus) {
-  for (const Robot& robot : {Robot{}, shared_robot()}) {
+  for (const Robot& robot : {Robot{}, robot_of_pairs()}) {
     const BusSchedule schedule = schedule_of(robot);
-    std::map<std::uint16_t, Duration> bound = worst_of(schedule, kMbit);
+    std::map<std::uint16_t, Duration> bound = worst_of(schedule, kMegabit);
     for (unsigned seed = 1; seed <= 5; ++seed) {
       const auto seen = SimulatedBus(schedule, seed).run(2'000'000);
       EXPECT_EQ(seen.size(), schedule.size());

@@ -28,6 +28,14 @@ inline Robot test_robot() {
   return robot;
 }
 
+/// The same with shared targets, at 1 kHz.
+inline Robot shared_robot() {
+  Robot robot = test_robot();
+  robot.pdo_layout = PdoLayout::kShared;
+  robot.cycle = std::chrono::milliseconds(1);
+  return robot;
+}
+
 /// Takes the first `room` frames of a send, as a transmit queue that is almost full, and drops the rest.
 class NarrowBus final : public hal::CanBus {
  public:

@@ -185,13 +185,6 @@ TEST(PdoMapping, FindsThePdosOfADriveThatAnswersLateAndInSegments) {
   EXPECT_EQ(rig.startup.channels(), (PdoChannels{0x503, 0, 0x383}));
 }
 
-Robot shared_robot() {
-  Robot robot = test_robot();
-  robot.pdo_layout = PdoLayout::kShared;
-  robot.cycle = std::chrono::milliseconds(1);
-  return robot;
-}
-
 TEST(SharedPdo, IsMappedWithADummyForTheOtherDrive) {
   for (const Wheel wheel : kAll) {
     StartupRig rig(shared_robot(), wheel);

@@ -149,7 +149,7 @@ TEST(InterfaceFacts, AdviseAShortQueueAndARestartAfterBusOff) {
   EXPECT_EQ(
       advice(facts),
       "can0 queues 1000 frames, which cannot be called back: `ip link set can0 txqueuelen 32`; it stays off after "
-      "bus-off: `ip link set can0 type can restart-ms 100`");
+      "bus-off: `ip link set can0 down; ip link set can0 type can restart-ms 100; ip link set can0 up`");
   facts.kind = InterfaceFacts::Kind::kVcan;
   EXPECT_EQ(advice(facts), "");
 }

@@ -16,7 +16,7 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr CanFrame frame_of(std::uint16_t id) { return {.id = id, .size = 0, .data = {}}; }
-constexpr CanFrame kSync = frame_of(0x080);
+constexpr CanFrame kSyncFrame = frame_of(0x080);
 
 /// A lock step whose other end the test plays.
 class LockStepWithPeer : public testing::Test {
@@ -75,7 +75,7 @@ TEST_F(LockStepTest, DoesNotWaitWhenNothingIsExpected) {
 }
 
 TEST_F(LockStepTest, AfterSyncWaitsForEveryFeedbackWhateverElseArrives) {
-  step_.send({&kSync, 1}, Instant{});
+  step_.send({&kSyncFrame, 1}, Instant{});
   answer({0x181, 0x182});
   std::thread drives([this] { answer({0x701, 0x581, 0x184, 0x182, 0x183}); });
   step_.sleep_until(next_);
@@ -86,18 +86,18 @@ TEST_F(LockStepTest, AfterSyncWaitsForEveryFeedbackWhateverElseArrives) {
 
 TEST_F(LockStepTest, ADriveMayTurnOutToAnswerWithAnotherTpdo) {
   impatient_.answer_with(1, 0x382);
-  impatient_.send({&kSync, 1}, Instant{});
+  impatient_.send({&kSyncFrame, 1}, Instant{});
   answer({0x181, 0x382, 0x183, 0x184});
   impatient_.sleep_until(next_);
   EXPECT_FALSE(impatient_.stalled());
-  impatient_.send({&kSync, 1}, Instant{});
+  impatient_.send({&kSyncFrame, 1}, Instant{});
   answer({0x181, 0x182, 0x183, 0x184});
   impatient_.sleep_until(next_ + milliseconds(2));
   EXPECT_TRUE(impatient_.stalled()) << "the TPDO1 of that drive is sent for another reason";
 }
 
 TEST_F(LockStepTest, AfterSyncOneFeedbackMissingStallsAndIsNotMadeUpForByAnother) {
-  impatient_.send({&kSync, 1}, Instant{});
+  impatient_.send({&kSyncFrame, 1}, Instant{});
   answer({0x181, 0x182, 0x183, 0x183, 0x183});
   impatient_.sleep_until(next_);
   EXPECT_TRUE(impatient_.stalled());
@@ -115,7 +115,7 @@ TEST_F(LockStepTest, OutsideOfSyncWaitsForAsManyAnswersAsAreExpected) {
 }
 
 TEST_F(LockStepTest, HoldsBackWhatArrivesAfterTheSleep) {
-  step_.send({&kSync, 1}, Instant{});
+  step_.send({&kSyncFrame, 1}, Instant{});
   answer({0x181, 0x182, 0x183, 0x184});
   step_.sleep_until(next_);
   answer({0x701});
@@ -126,19 +126,19 @@ TEST_F(LockStepTest, HoldsBackWhatArrivesAfterTheSleep) {
 }
 
 TEST_F(LockStepTest, StallsWhenDrivesStaySilentAndNeverWaitsAgain) {
-  impatient_.send({&kSync, 1}, Instant{});
+  impatient_.send({&kSyncFrame, 1}, Instant{});
   impatient_.sleep_until(next_);
   EXPECT_TRUE(impatient_.stalled());
   EXPECT_EQ(impatient_.now(), next_);
-  impatient_.send({&kSync, 1}, Instant{});
+  impatient_.send({&kSyncFrame, 1}, Instant{});
   impatient_.sleep_until(next_ + milliseconds(2));
   EXPECT_EQ(impatient_.now(), next_ + milliseconds(2));
 }
 
 TEST_F(LockStepTest, ASyncThatTheInterfaceRefusedIsNotWaitedFor) {
-  while (bus_.send({&kSync, 1}, Instant{}) == 1) {
+  while (bus_.send({&kSyncFrame, 1}, Instant{}) == 1) {
   }
-  const std::array<CanFrame, 2> frames{kSync, kSync};
+  const std::array<CanFrame, 2> frames{kSyncFrame, kSyncFrame};
   EXPECT_EQ(step_.send(frames, Instant{}), 0U);
   step_.sleep_until(next_);
   EXPECT_FALSE(step_.stalled());
@@ -156,7 +156,7 @@ TEST_F(LockStepTest, CountsFramesThatItsQueueCannotHold) {
 }
 
 TEST_F(LockStepTest, GoesOnWithoutWaitingWhileTheBusIsOff) {
-  step_.send({&kSync, 1}, Instant{});
+  step_.send({&kSyncFrame, 1}, Instant{});
   can_frame off{};
   off.can_id = CAN_ERR_FLAG | CAN_ERR_BUSOFF;
   off.can_dlc = CAN_ERR_DLC;
@@ -169,7 +169,7 @@ TEST_F(LockStepTest, GoesOnWithoutWaitingWhileTheBusIsOff) {
 }
 
 TEST_F(LockStepTest, ASyncThatGoesOutLaterIsWaitedForThen) {
-  while (bus_.send({&kSync, 1}, Instant{}) == 1) {
+  while (bus_.send({&kSyncFrame, 1}, Instant{}) == 1) {
   }
   impatient_.sleep_until(next_);
   EXPECT_FALSE(impatient_.stalled());
@@ -182,14 +182,14 @@ TEST_F(LockStepTest, ASyncThatGoesOutLaterIsWaitedForThen) {
 }
 
 TEST_F(LockStepTest, SomebodyInAHurryEndsAWaitForSilentDrives) {
-  step_.send({&kSync, 1}, Instant{});
+  step_.send({&kSyncFrame, 1}, Instant{});
   step_.interrupt();
   step_.sleep_until(next_);
   EXPECT_TRUE(step_.stalled()) << "after a second, not after five minutes";
 }
 
 TEST_F(LockStepTest, SomebodyInAHurryDoesNotEndAWaitThatDrivesAnswer) {
-  step_.send({&kSync, 1}, Instant{});
+  step_.send({&kSyncFrame, 1}, Instant{});
   step_.interrupt();
   answer({0x181, 0x182, 0x183, 0x184});
   step_.sleep_until(next_);
@@ -200,7 +200,7 @@ TEST_F(LockStepTest, ASignalDuringAWaitIsAHurry) {
   struct sigaction nothing {};
   nothing.sa_handler = [](int) {};
   ASSERT_EQ(sigaction(SIGUSR1, &nothing, nullptr), 0);
-  step_.send({&kSync, 1}, Instant{});
+  step_.send({&kSyncFrame, 1}, Instant{});
   std::atomic<bool> over{false};
   const pthread_t waiting = pthread_self();
   std::thread person([&] {

@@ -16,7 +16,7 @@ namespace ivo::hal {
 namespace {
 
 constexpr int kSteps = 100'000;
-constexpr std::array<std::uint16_t, 9> kIds{0x000, 0x080, 0x201, 0x202, 0x203, 0x204, 0x601, 0x602, 0x77F};
+constexpr std::array<std::uint16_t, 9> kCobIds{0x000, 0x080, 0x201, 0x202, 0x203, 0x204, 0x601, 0x602, 0x77F};
 
 struct Given {
   std::uint32_t value = 0;
@@ -78,7 +78,7 @@ class Campaign {
   void send() {
     std::vector<CanFrame> frames;
     for (std::uint32_t count = pick(10); count > 0; --count) {
-      const CanFrame frame = numbered(kIds[pick(kIds.size())], static_cast<std::uint8_t>(pick(3)), ++value_);
+      const CanFrame frame = numbered(kCobIds[pick(kCobIds.size())], static_cast<std::uint8_t>(pick(3)), ++value_);
       newest_[key_of(frame)] = {value_, now_};
       frames.push_back(frame);
     }

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "hal/linux/file_descriptor.hpp"
+#include "hal/api/file_descriptor.hpp"
 #include "hal/linux/socketcan_bus.hpp"
 
 namespace ivo::hal {

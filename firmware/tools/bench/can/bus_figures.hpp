@@ -14,7 +14,4 @@ void frames_a_second(const Options& options, Sheet& sheet);
 /// What the robot's layout promises, and what a listener counts while it drives.
 void bus_load(const Options& options, Sheet& sheet);
 
-/// "CLOCK_MONOTONIC", and whose.
-[[nodiscard]] const char* clock_of_this_kernel() noexcept;
-
 }  // namespace ivo::firmware::bench

@@ -2,13 +2,13 @@
 #include "firmware/tools/bench/bench.hpp"
 #include "firmware/tools/bench/can/bus_figures.hpp"
 #include "firmware/tools/bench/can/fault_table.hpp"
-#include "firmware/tools/bench/can/guest.hpp"
+#include "firmware/tools/bench/guest.hpp"
 
 namespace ivo::firmware::bench {
 
 void can(const Options& options, Sheet& sheet) {
   if (!owns_network()) {
-    Result<std::vector<Record>> records = records_from_guest(options);
+    Result<std::vector<Record>> records = records_from_guest(Guest::kVcan, "can", options);
     records ? sheet.take(std::move(records).value()) : sheet.skip("all", records.error().message);
     return;
   }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <vector>
 
 #include "config/limits.hpp"
@@ -11,6 +10,7 @@
 #include "firmware/tools/bench/can/bus_figures.hpp"
 #include "firmware/tools/bench/can/fault_rig.hpp"
 #include "firmware/tools/bench/can/syscall_count.hpp"
+#include "firmware/tools/bench/guest.hpp"
 #include "hal/linux/monotonic_clock.hpp"
 
 namespace ivo::firmware::bench {
@@ -115,11 +115,6 @@ void add_calls(Buses& buses, Sheet& sheet) {
 }
 
 }  // namespace
-
-const char* clock_of_this_kernel() noexcept {
-  return std::getenv("IVO_OWN_CLOCK") != nullptr ? "CLOCK_MONOTONIC of a user-mode Linux guest"
-                                                 : "CLOCK_MONOTONIC of this machine";
-}
 
 void cycle_cost(const Options& options, Sheet& sheet) {
   sheet.clock(clock_of_this_kernel());

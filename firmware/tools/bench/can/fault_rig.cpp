@@ -139,7 +139,7 @@ const LoopStatus& FaultRig::cycle() {
   if (held_) {
     ++missed_;
   } else {
-    loop_->cycle(now_, std::exchange(missed_, 0));
+    loop_->cycle({.now = now_, .skipped = std::exchange(missed_, 0)});
   }
   pass_period();
   return loop_->status();

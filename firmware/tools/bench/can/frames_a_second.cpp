@@ -11,6 +11,7 @@
 #include "firmware/tools/bench/can/bus_figures.hpp"
 #include "firmware/tools/bench/can/fault_rig.hpp"
 #include "firmware/tools/bench/can/tool.hpp"
+#include "firmware/tools/bench/guest.hpp"
 #include "hal/linux/monotonic_clock.hpp"
 
 namespace ivo::firmware::bench {

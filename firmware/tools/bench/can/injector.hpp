@@ -6,7 +6,7 @@
 #include <string>
 
 #include "config/base/result.hpp"
-#include "hal/linux/file_descriptor.hpp"
+#include "hal/api/file_descriptor.hpp"
 
 namespace ivo::firmware::bench {
 

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/scratch_folder.hpp"
 #include "tests/unit/firmware/files/complaint.hpp"
-#include "tests/unit/firmware/files/scratch_folder.hpp"
 
 namespace ivo::firmware {
 namespace {

@@ -7,8 +7,8 @@
 #include "drivers/eds/shipped_eds.hpp"
 #include "firmware/files/robot_file.hpp"
 #include "firmware/files/text_file.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tests/unit/firmware/files/complaint.hpp"
-#include "tests/unit/firmware/files/scratch_folder.hpp"
 
 namespace ivo::firmware {
 namespace {

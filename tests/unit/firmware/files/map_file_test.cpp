@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "firmware/files/class_file.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tests/unit/firmware/files/complaint.hpp"
-#include "tests/unit/firmware/files/scratch_folder.hpp"
 #include "tests/unit/firmware/files/written_png.hpp"
 
 namespace ivo::firmware {

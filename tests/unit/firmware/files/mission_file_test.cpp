@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "config/limits.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tests/unit/firmware/files/complaint.hpp"
-#include "tests/unit/firmware/files/scratch_folder.hpp"
 
 namespace ivo::firmware {
 namespace {
@@ -46,14 +46,16 @@ std::string complaint_of(const std::string& text) {
   return replaced(message_of(read_mission(folder.put("m.toml", text))), folder.path() + "/", "");
 }
 
-std::string complaint(std::string_view from, std::string_view to) { return complaint_of(replaced(kMission, from, to)); }
+std::string complaint_about_mission(std::string_view from, std::string_view to) {
+  return complaint_of(replaced(kMission, from, to));
+}
 
 std::string complaint_about_prior(const std::string& prior) {
-  return complaint("[planner]", "prior = " + prior + "\n[planner]");
+  return complaint_about_mission("[planner]", "prior = " + prior + "\n[planner]");
 }
 
 std::string complaint_about_polygon(const std::string& vertices) {
-  return complaint("[[0, 0], [4, 0], [2, 3]]", vertices);
+  return complaint_about_mission("[[0, 0], [4, 0], [2, 3]]", vertices);
 }
 
 TEST(MissionFile, ReadsEveryFieldAndTheDefaults) {
@@ -138,9 +140,9 @@ TEST(MissionFile, RefusesSubPriorsThatAreNone) {
             "m.toml:3: prior.image: a second prior beside uniform; expected one of the two");
   EXPECT_EQ(complaint_about_prior("{ uniform = true, gaussians = [ { mean_m = [1, 1], sigma_m = 1 } ] }"),
             "m.toml:3: prior.uniform: a second prior beside gaussians; expected one of the two");
-  EXPECT_EQ(complaint("heading_deg = 180", "sub_prior = { image = 'x.png' }"),
+  EXPECT_EQ(complaint_about_mission("heading_deg = 180", "sub_prior = { image = 'x.png' }"),
             "m.toml:10: agent[0].sub_prior.resolution_m: missing; it must be given, in metres");
-  EXPECT_EQ(complaint("heading_deg = 180", "sub_prior = 'x.png'"),
+  EXPECT_EQ(complaint_about_mission("heading_deg = 180", "sub_prior = 'x.png'"),
             "m.toml:10: agent[0].sub_prior: is no sub-prior; expected { image = \"...\", resolution_m = ... }");
 }
 
@@ -176,54 +178,58 @@ TEST(MissionFile, RemembersLinesForComplaintsThatComeLater) {
 }
 
 TEST(MissionFile, RefusesAnotherFormat) {
-  EXPECT_EQ(complaint("format = 1", "format = 2"),
+  EXPECT_EQ(complaint_about_mission("format = 1", "format = 2"),
             "m.toml:1: format: is another version of this file's form; expected 1");
-  EXPECT_EQ(complaint("format = 1", ""), "m.toml:1: format: missing; it must be given");
+  EXPECT_EQ(complaint_about_mission("format = 1", ""), "m.toml:1: format: missing; it must be given");
 }
 
 TEST(MissionFile, RefusesWhatIsMissing) {
-  EXPECT_EQ(complaint("map = '../maps/yard.toml'", ""), "m.toml:1: map: missing; it must be given");
-  EXPECT_EQ(complaint("start_m = [3, 4]", ""), "m.toml:13: agent[1].start_m: missing; it must be given, in metres");
-  EXPECT_EQ(complaint("robot = '../robots/r.toml'", ""), "m.toml:5: agent[0].robot: missing; it must be given");
+  EXPECT_EQ(complaint_about_mission("map = '../maps/yard.toml'", ""), "m.toml:1: map: missing; it must be given");
+  EXPECT_EQ(complaint_about_mission("start_m = [3, 4]", ""),
+            "m.toml:13: agent[1].start_m: missing; it must be given, in metres");
+  EXPECT_EQ(complaint_about_mission("robot = '../robots/r.toml'", ""),
+            "m.toml:5: agent[0].robot: missing; it must be given");
   EXPECT_EQ(complaint_of("format = 1\nmap = 'a'\n"), "m.toml:1: agent: missing; it must be given");
 }
 
 TEST(MissionFile, RefusesValuesOutOfRange) {
-  EXPECT_EQ(complaint("speed_mps = 0.4", "speed_mps = 5"),
+  EXPECT_EQ(complaint_about_mission("speed_mps = 0.4", "speed_mps = 5"),
             "m.toml:11: agent[0].speed_mps: 5 is out of range; expected 0.05 to 3 (metres a second)");
-  EXPECT_EQ(complaint("start_m = [3, 4]", "start_m = [3, -4]"),
+  EXPECT_EQ(complaint_about_mission("start_m = [3, 4]", "start_m = [3, -4]"),
             "m.toml:17: agent[1].start_m[1]: -4 is out of range; expected 0 to 100000 (metres)");
-  EXPECT_EQ(complaint("cell_m = 0.5", "beta = 13"), "m.toml:4: planner.beta: 13 is out of range; expected 0 to 12");
-  EXPECT_EQ(complaint("cell_m = 0.5", "beta = 1.5"),
+  EXPECT_EQ(complaint_about_mission("cell_m = 0.5", "beta = 13"),
+            "m.toml:4: planner.beta: 13 is out of range; expected 0 to 12");
+  EXPECT_EQ(complaint_about_mission("cell_m = 0.5", "beta = 1.5"),
             "m.toml:4: planner.beta: 1.5 is a number; expected a whole number, 0 to 12");
-  EXPECT_EQ(complaint("cell_m = 0.5", "profile = 'quick'"),
+  EXPECT_EQ(complaint_about_mission("cell_m = 0.5", "profile = 'quick'"),
             "m.toml:4: planner.profile: \"quick\" is unknown; expected \"paper\" or \"fast\"");
-  EXPECT_EQ(complaint("cell_m = 0.5", "heuristic = 'tps'"),
+  EXPECT_EQ(complaint_about_mission("cell_m = 0.5", "heuristic = 'tps'"),
             "m.toml:4: planner.heuristic: \"tps\" is unknown; expected \"tsp\" or \"mts\"");
-  EXPECT_EQ(complaint("cell_m = 0.5", "rho = nan"),
+  EXPECT_EQ(complaint_about_mission("cell_m = 0.5", "rho = nan"),
             "m.toml:4: planner.rho: nan is not a finite number; expected a number, 0.000001 to 1");
-  EXPECT_EQ(complaint("[planner]", "seed = -1\n[planner]"),
+  EXPECT_EQ(complaint_about_mission("[planner]", "seed = -1\n[planner]"),
             "m.toml:3: seed: -1 is out of range; expected 0 to 9223372036854775807");
 }
 
 TEST(MissionFile, RefusesOtherUnitsAndMisspeltKeys) {
-  EXPECT_EQ(complaint("speed_mps = 0.4", "speed_kmh = 2"),
+  EXPECT_EQ(complaint_about_mission("speed_mps = 0.4", "speed_kmh = 2"),
             "m.toml:11: agent[0].speed_kmh: unknown; this quantity is given as speed_mps, in metres a second");
-  EXPECT_EQ(complaint("prefer", "perfer"), "m.toml:20: agent[1].perferred: unknown; did you mean preferred?");
-  EXPECT_EQ(complaint("[planner]", "[planer]"), "m.toml:3: planer: unknown; did you mean planner?");
+  EXPECT_EQ(complaint_about_mission("prefer", "perfer"),
+            "m.toml:20: agent[1].perferred: unknown; did you mean preferred?");
+  EXPECT_EQ(complaint_about_mission("[planner]", "[planer]"), "m.toml:3: planer: unknown; did you mean planner?");
 }
 
 TEST(MissionFile, RefusesATeamThatIsNotOneRobotAndThenPersons) {
-  EXPECT_EQ(complaint("kind = 'robot'\nrobot = '../robots/r.toml'", "kind = 'person'\n"),
+  EXPECT_EQ(complaint_about_mission("kind = 'robot'\nrobot = '../robots/r.toml'", "kind = 'person'\n"),
             "m.toml:7: agent[0].kind: the first agent is a person; expected the robot first, then persons");
-  EXPECT_EQ(complaint("kind = 'person'\nmotion = 'reported'", "kind = 'robot'\nrobot = 'r.toml'"),
+  EXPECT_EQ(complaint_about_mission("kind = 'person'\nmotion = 'reported'", "kind = 'robot'\nrobot = 'r.toml'"),
             "m.toml:15: agent[1].kind: a robot after the first agent; expected exactly one robot, the first agent");
-  EXPECT_EQ(complaint("kind = 'person'", "kind = 'dog'"),
+  EXPECT_EQ(complaint_about_mission("kind = 'person'", "kind = 'dog'"),
             "m.toml:15: agent[1].kind: \"dog\" is unknown; expected \"robot\" or \"person\"");
 }
 
 TEST(MissionFile, RefusesOneNameForTwo) {
-  EXPECT_EQ(complaint("'Ana'", "'IVO'"),
+  EXPECT_EQ(complaint_about_mission("'Ana'", "'IVO'"),
             "m.toml:14: agent[1].name: \"IVO\" is another agent's name; expected a name of its own");
 }
 
@@ -250,22 +256,22 @@ TEST(MissionFile, RefusesMoreAgentsThanThePlannerHoldsWithTheProfileThatFits) {
 }
 
 TEST(MissionFile, RefusesWhatBelongsToTheOtherKind) {
-  EXPECT_EQ(complaint("heading_deg = 180", "motion = 'reported'"),
+  EXPECT_EQ(complaint_about_mission("heading_deg = 180", "motion = 'reported'"),
             "m.toml:10: agent[0].motion: belongs to a person; a robot moves by its drives");
-  EXPECT_EQ(complaint("heading_deg = 180", "footprint_radius_m = 0.3"),
+  EXPECT_EQ(complaint_about_mission("heading_deg = 180", "footprint_radius_m = 0.3"),
             "m.toml:10: agent[0].footprint_radius_m: belongs to a person; a robot's footprint is in its robot file");
-  EXPECT_EQ(complaint("motion = 'reported'", "heading_deg = 1"),
+  EXPECT_EQ(complaint_about_mission("motion = 'reported'", "heading_deg = 1"),
             "m.toml:16: agent[1].heading_deg: belongs to a robot; a person needs none");
-  EXPECT_EQ(complaint("motion = 'reported'", "robot = 'r.toml'"),
+  EXPECT_EQ(complaint_about_mission("motion = 'reported'", "robot = 'r.toml'"),
             "m.toml:16: agent[1].robot: belongs to a robot; a person has no robot file");
 }
 
 TEST(MissionFile, RefusesObjectsThatAreNone) {
-  EXPECT_EQ(complaint("[planner]", "object = 'lost'\n[planner]"),
+  EXPECT_EQ(complaint_about_mission("[planner]", "object = 'lost'\n[planner]"),
             "m.toml:3: object: \"lost\" is unknown; expected \"drawn\" or \"unknown\"");
-  EXPECT_EQ(complaint("[planner]", "object = 3\n[planner]"),
+  EXPECT_EQ(complaint_about_mission("[planner]", "object = 3\n[planner]"),
             "m.toml:3: object: is no object; expected \"drawn\", \"unknown\" or [x, y]");
-  EXPECT_EQ(complaint("[planner]", "object = [3]\n[planner]"),
+  EXPECT_EQ(complaint_about_mission("[planner]", "object = [3]\n[planner]"),
             "m.toml:3: object: has 1 element; expected a list of 2 numbers, [x, y]");
 }
 
@@ -293,10 +299,10 @@ TEST(MissionFile, RefusesRectanglesWithoutArea) {
   const std::string empty =
       "m.toml:21: agent[1].preferred[0].rectangle_m: covers no area; expected [x0, y0, x1, y1] with x0 < x1 and y0 < "
       "y1";
-  EXPECT_EQ(complaint("[1, 2, 3, 5]", "[3, 2, 1, 5]"), empty);
-  EXPECT_EQ(complaint("[1, 2, 3, 5]", "[1, 2, 3, 2]"), empty);
+  EXPECT_EQ(complaint_about_mission("[1, 2, 3, 5]", "[3, 2, 1, 5]"), empty);
+  EXPECT_EQ(complaint_about_mission("[1, 2, 3, 5]", "[1, 2, 3, 2]"), empty);
   EXPECT_EQ(
-      complaint("[1, 2, 3, 5]", "[1, 2, 3]"),
+      complaint_about_mission("[1, 2, 3, 5]", "[1, 2, 3]"),
       "m.toml:21: agent[1].preferred[0].rectangle_m: has 3 elements; expected a list of 4 numbers, [x0, y0, x1, y1]");
 }
 
@@ -330,10 +336,11 @@ TEST(MissionFile, RefusesAreasThatAreNeitherOrBoth) {
       "m.toml:21: agent[1].preferred[0]: is no area; expected either rectangle_m = [x0, y0, x1, y1] or polygon_m = "
       "[[x, y], "
       "...]";
-  EXPECT_EQ(complaint("{ rectangle_m = [1, 2, 3, 5] }", "{}"), neither);
-  EXPECT_EQ(complaint("rectangle_m = [1, 2, 3, 5]", "rectangle_m = [1, 2, 3, 5], polygon_m = [[0, 0], [4, 0], [2, 3]]"),
+  EXPECT_EQ(complaint_about_mission("{ rectangle_m = [1, 2, 3, 5] }", "{}"), neither);
+  EXPECT_EQ(complaint_about_mission("rectangle_m = [1, 2, 3, 5]",
+                                    "rectangle_m = [1, 2, 3, 5], polygon_m = [[0, 0], [4, 0], [2, 3]]"),
             neither);
-  EXPECT_EQ(complaint("{ rectangle_m = [1, 2, 3, 5] }", "5"),
+  EXPECT_EQ(complaint_about_mission("{ rectangle_m = [1, 2, 3, 5] }", "5"),
             "m.toml:21: agent[1].preferred[0]: 5 is a number; expected a table");
 }
 

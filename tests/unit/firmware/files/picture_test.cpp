@@ -9,8 +9,8 @@
 #include "firmware/files/picture_layout.hpp"
 #include "firmware/files/picture_style.hpp"
 #include "firmware/files/png_file.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tests/unit/firmware/files/complaint.hpp"
-#include "tests/unit/firmware/files/scratch_folder.hpp"
 
 // fontconfig keeps its patterns by relative pointers, which the leak detector cannot follow.
 extern "C" const char* __lsan_default_suppressions();

@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "firmware/files/report_file.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tests/unit/firmware/files/complaint.hpp"
-#include "tests/unit/firmware/files/scratch_folder.hpp"
 
 namespace ivo::firmware {
 namespace {
@@ -33,7 +33,7 @@ PlanDocument plan() {
   return plan;
 }
 
-std::string complaint(std::string_view from, std::string_view to) {
+std::string complaint_about_plan(std::string_view from, std::string_view to) {
   const ScratchFolder folder;
   return replaced(message_of(read_plan(folder.put("p.json", replaced(plan_json(plan()), from, to)))),
                   folder.path() + "/", "");
@@ -126,36 +126,38 @@ TEST(PlanFile, RefusesWhatIsNoPlan) {
             folder.path("p.json") + ":1: not JSON: ends too early; expected a plan");
   EXPECT_EQ(message_of(read_plan(folder.put("p.json", "[1]"))),
             folder.path("p.json") + ": is no object; expected what plan writes");
-  EXPECT_EQ(complaint("\"format\": 2", "\"format\": 1"),
+  EXPECT_EQ(complaint_about_plan("\"format\": 2", "\"format\": 1"),
             "p.json: format: 1 is another version of this file's form; expected 2");
 }
 
 TEST(PlanFile, RefusesFieldsThatAreMissingOrOfTheWrongType) {
-  EXPECT_EQ(complaint("\"cell_m\"", "\"cell_cm\""), "p.json: cell_m: missing; it must be given");
-  EXPECT_EQ(complaint("\"seed\": 18446744073709551615", "\"seed\": -1"),
+  EXPECT_EQ(complaint_about_plan("\"cell_m\"", "\"cell_cm\""), "p.json: cell_m: missing; it must be given");
+  EXPECT_EQ(complaint_about_plan("\"seed\": 18446744073709551615", "\"seed\": -1"),
             "p.json: seed: is no count; expected a whole number, 0 to 18446744073709551615");
-  EXPECT_EQ(complaint("\"capacity\": \"onboard\"", "\"capacity\": 3"), "p.json: capacity: is no text; expected text");
-  EXPECT_EQ(complaint("\"profile\": \"paper\"", "\"profile\": \"onboard\""),
+  EXPECT_EQ(complaint_about_plan("\"capacity\": \"onboard\"", "\"capacity\": 3"),
+            "p.json: capacity: is no text; expected text");
+  EXPECT_EQ(complaint_about_plan("\"profile\": \"paper\"", "\"profile\": \"onboard\""),
             "p.json: profile: \"onboard\" is unknown; expected \"paper\" or \"fast\"");
-  EXPECT_EQ(complaint("\"gap\": 0.125", "\"gap\": \"x\""),
+  EXPECT_EQ(complaint_about_plan("\"gap\": 0.125", "\"gap\": \"x\""),
             "p.json: gap: this will not do; expected a number, -1 to 1000000000");
-  EXPECT_EQ(complaint("\"complete\":true", "\"complete\":1"),
+  EXPECT_EQ(complaint_about_plan("\"complete\":true", "\"complete\":1"),
             "p.json: score.complete: is no flag; expected true or false");
-  EXPECT_EQ(complaint("\"unseen_mass\":0.0139", "\"unseen_mass\":1.5"),
+  EXPECT_EQ(complaint_about_plan("\"unseen_mass\":0.0139", "\"unseen_mass\":1.5"),
             "p.json: score.unseen_mass: 1.5 will not do; expected a number, 0 to 1");
-  EXPECT_EQ(complaint("\"score\": {", "\"score\": 5, \"x\": {"),
+  EXPECT_EQ(complaint_about_plan("\"score\": {", "\"score\": 5, \"x\": {"),
             "p.json: score.expected_time_s: missing; it must be given");
 }
 
 TEST(PlanFile, RefusesAgentsAndWaypointsThatAreNone) {
-  EXPECT_EQ(complaint("\"kind\":\"person\"", "\"kind\":\"dog\""),
+  EXPECT_EQ(complaint_about_plan("\"kind\":\"person\"", "\"kind\":\"dog\""),
             "p.json: agents[1].kind: \"dog\" is unknown; expected \"robot\" or \"person\"");
-  EXPECT_EQ(complaint("[[39.25,1.75]]", "[]"),
+  EXPECT_EQ(complaint_about_plan("[[39.25,1.75]]", "[]"),
             "p.json: agents[1].waypoints_m: is empty; expected a list of at least one");
-  EXPECT_EQ(complaint("[1.75,1.75],", "[1.75],"), "p.json: agents[0].waypoints_m[0]: is no point; expected [x, y]");
-  EXPECT_EQ(complaint("[1.75,1.75],", "[1.75,null],"),
+  EXPECT_EQ(complaint_about_plan("[1.75,1.75],", "[1.75],"),
+            "p.json: agents[0].waypoints_m[0]: is no point; expected [x, y]");
+  EXPECT_EQ(complaint_about_plan("[1.75,1.75],", "[1.75,null],"),
             "p.json: agents[0].waypoints_m[0]: this will not do; expected a number, -1000000 to 1000000");
-  EXPECT_EQ(complaint("\"agents\": [", "\"agents\": {}, \"y\": ["),
+  EXPECT_EQ(complaint_about_plan("\"agents\": [", "\"agents\": {}, \"y\": ["),
             "p.json: agents: is no list; expected a list of at least one");
 }
 

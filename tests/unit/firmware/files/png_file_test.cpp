@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "firmware/files/grey_image.hpp"
-#include "tests/unit/firmware/files/scratch_folder.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tests/unit/firmware/files/written_png.hpp"
 
 namespace ivo::firmware {

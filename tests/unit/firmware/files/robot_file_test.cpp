@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "firmware/files/text_file.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tests/unit/firmware/files/complaint.hpp"
-#include "tests/unit/firmware/files/scratch_folder.hpp"
 
 namespace ivo::firmware {
 namespace {
@@ -25,7 +25,7 @@ const std::string kRobot =
     drive("front_right", 2) + drive("rear_left", 3) +                       // 17, 23, 29
     drive("rear_right", 4) + "vendor_id = 0xFFFFFFFF\nproduct_code = 5\n";  // 35, 41, 42
 
-std::string complaint(std::string_view from, std::string_view to) {
+std::string complaint_about_robot(std::string_view from, std::string_view to) {
   const ScratchFolder folder;
   return replaced(message_of(read_robot(folder.put("r.toml", replaced(kRobot, from, to)))), folder.path() + "/", "");
 }
@@ -61,62 +61,65 @@ TEST(RobotFile, ReadsEveryField) {
 }
 
 TEST(RobotFile, RefusesNodeIdsThatAreSharedOrOutOfRange) {
-  EXPECT_EQ(complaint("node_id = 3", "node_id = 1"),
+  EXPECT_EQ(complaint_about_robot("node_id = 3", "node_id = 1"),
             "r.toml:30: drive.rear_left.node_id: 1 is already drive.front_left's; expected a node-id of its own");
   EXPECT_EQ(
-      complaint("node_id = 3", "node_id = 100"),
+      complaint_about_robot("node_id = 3", "node_id = 100"),
       "r.toml:30: drive.rear_left.node_id: 100 is the master's (bus.master_node_id); expected a node-id of its own");
-  EXPECT_EQ(complaint("node_id = 3", "node_id = 127"),
+  EXPECT_EQ(complaint_about_robot("node_id = 3", "node_id = 127"),
             "r.toml:30: drive.rear_left.node_id: 127 is out of range; expected 1 to 126");
-  EXPECT_EQ(complaint("node_id = 3", "node_id = 0"),
+  EXPECT_EQ(complaint_about_robot("node_id = 3", "node_id = 0"),
             "r.toml:30: drive.rear_left.node_id: 0 is out of range; expected 1 to 126");
 }
 
 TEST(RobotFile, RefusesASignThatIsNoDirection) {
-  EXPECT_EQ(complaint("sign = 1", "sign = 0"), "r.toml:19: drive.front_left.sign: 0 is no direction; expected 1 or -1");
-  EXPECT_EQ(complaint("sign = 1", "sign = 2"), "r.toml:19: drive.front_left.sign: 2 is out of range; expected -1 to 1");
+  EXPECT_EQ(complaint_about_robot("sign = 1", "sign = 0"),
+            "r.toml:19: drive.front_left.sign: 0 is no direction; expected 1 or -1");
+  EXPECT_EQ(complaint_about_robot("sign = 1", "sign = 2"),
+            "r.toml:19: drive.front_left.sign: 2 is out of range; expected -1 to 1");
 }
 
 TEST(RobotFile, RefusesAStopThatIsGentlerThanBraking) {
   EXPECT_EQ(
-      complaint("stop_decel_mps2 = 1", "stop_decel_mps2 = 0.4"),
+      complaint_about_robot("stop_decel_mps2 = 1", "stop_decel_mps2 = 0.4"),
       "r.toml:13: limits.stop_decel_mps2: 0.4 is gentler than ordinary braking; expected at least max_accel_mps2, "
       "0.5");
 }
 
 TEST(RobotFile, RefusesAStopThatTakesTooLong) {
-  EXPECT_EQ(complaint("max_speed_mps = 0.5", "max_speed_mps = 2.5"),
+  EXPECT_EQ(complaint_about_robot("max_speed_mps = 0.5", "max_speed_mps = 2.5"),
             "r.toml:13: limits.stop_decel_mps2: 1 does not stop the robot from max_speed_mps within 2 s; expected at "
             "least 1.25");
 }
 
 TEST(RobotFile, RefusesBitRatesThatAreNoneOrTooSlow) {
   for (const std::string rate : {"500000", "600000", "250000"}) {
-    EXPECT_EQ(complaint("800000", rate), "r.toml:15: bus.bit_rate_bps: " + rate +
-                                             " does not carry four drives at 500 Hz; expected 800000 or 1000000");
+    EXPECT_EQ(
+        complaint_about_robot("800000", rate),
+        "r.toml:15: bus.bit_rate_bps: " + rate + " does not carry four drives at 500 Hz; expected 800000 or 1000000");
   }
 }
 
 TEST(RobotFile, RefusesUnitsInWhichFullSpeedDoesNotFit) {
   EXPECT_EQ(
-      complaint("velocity_per_radps = 10", "velocity_per_radps = 1e8"),
+      complaint_about_robot("velocity_per_radps = 10", "velocity_per_radps = 1e8"),
       "r.toml:22: drive.front_left.velocity_per_radps: makes base.max_wheel_radps 3000000000 units of 60FFh; expected "
       "100 to 2147483647 of them");
-  EXPECT_EQ(complaint("velocity_per_radps = 10", "velocity_per_radps = 1"),
+  EXPECT_EQ(complaint_about_robot("velocity_per_radps = 10", "velocity_per_radps = 1"),
             "r.toml:22: drive.front_left.velocity_per_radps: makes base.max_wheel_radps 30 units of 60FFh; expected "
             "100 to 2147483647 of them");
 }
 
 TEST(RobotFile, RefusesAWheelThatIsMissing) {
-  EXPECT_EQ(complaint(drive("rear_left", 3), ""), "r.toml:17: drive.rear_left: missing; it must be given");
+  EXPECT_EQ(complaint_about_robot(drive("rear_left", 3), ""), "r.toml:17: drive.rear_left: missing; it must be given");
 }
 
 TEST(RobotFile, RefusesUnknownGeometryUnknownKeysAndOtherUnits) {
-  EXPECT_EQ(complaint("'omni_x'", "'tank'"),
+  EXPECT_EQ(complaint_about_robot("'omni_x'", "'tank'"),
             "r.toml:3: base.geometry: \"tank\" is unknown; expected \"mecanum\" or \"omni_x\"");
-  EXPECT_EQ(complaint("wheel_radius_m = 0.1", "wheel_radius_mm = 100"),
+  EXPECT_EQ(complaint_about_robot("wheel_radius_m = 0.1", "wheel_radius_mm = 100"),
             "r.toml:4: base.wheel_radius_mm: unknown; this quantity is given as wheel_radius_m, in metres");
-  EXPECT_EQ(complaint("sign = 1", "sign = 1\ntorque = 3"),
+  EXPECT_EQ(complaint_about_robot("sign = 1", "sign = 1\ntorque = 3"),
             "r.toml:20: drive.front_left.torque: unknown; expected one of node_id, sign, gear_ratio, counts_per_turn, "
             "velocity_per_radps, accel_per_radps2, eds, vendor_id, product_code");
 }

@@ -4,8 +4,8 @@
 
 #include "firmware/files/robot_file.hpp"
 #include "firmware/files/text_file.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tests/unit/firmware/files/complaint.hpp"
-#include "tests/unit/firmware/files/scratch_folder.hpp"
 
 namespace ivo::firmware {
 namespace {
@@ -30,7 +30,7 @@ Result<InputParameters> read(const std::string& text) {
   return inputs;
 }
 
-std::string complaint(std::string_view from, std::string_view to) {
+std::string complaint_about_inputs(std::string_view from, std::string_view to) {
   return message_of(read(replaced(kInputs, from, to)));
 }
 
@@ -58,22 +58,23 @@ TEST(RobotInputs, EitherKindWillDo) {
 }
 
 TEST(RobotInputs, RefusesALineThatIsUsedTwice) {
-  EXPECT_EQ(complaint("line = 27", "line = 17"),
+  EXPECT_EQ(complaint_about_inputs("line = 27", "line = 17"),
             "r.toml:5: inputs.bumpers[1].line: 17 is already inputs.emergency_stop's; expected a line of its own");
-  EXPECT_EQ(complaint("line = 27", "line = 22"),
+  EXPECT_EQ(complaint_about_inputs("line = 27", "line = 22"),
             "r.toml:5: inputs.bumpers[1].line: 22 is already inputs.bumpers[0]'s; expected a line of its own");
 }
 
 TEST(RobotInputs, RefusesALevelThatIsNotSaid) {
-  EXPECT_EQ(complaint("line = 17, active_low = true", "line = 17"),
+  EXPECT_EQ(complaint_about_inputs("line = 17, active_low = true", "line = 17"),
             "r.toml:3: inputs.emergency_stop.active_low: missing; it must be given");
 }
 
 TEST(RobotInputs, RefusesLinesThatCannotBe) {
-  EXPECT_EQ(complaint("line = 22", "line = -1"),
+  EXPECT_EQ(complaint_about_inputs("line = 22", "line = -1"),
             "r.toml:4: inputs.bumpers[0].line: -1 is out of range; expected 0 to 1023");
-  EXPECT_EQ(complaint("line = 22", "pin = 22"), "r.toml:4: inputs.bumpers[0].pin: unknown; did you mean line?");
-  EXPECT_EQ(complaint("chip = 'gpiochip0'\n", ""), "r.toml:1: inputs.chip: missing; it must be given");
+  EXPECT_EQ(complaint_about_inputs("line = 22", "pin = 22"),
+            "r.toml:4: inputs.bumpers[0].pin: unknown; did you mean line?");
+  EXPECT_EQ(complaint_about_inputs("chip = 'gpiochip0'\n", ""), "r.toml:1: inputs.chip: missing; it must be given");
 }
 
 TEST(RobotInputs, RefusesMoreBumpersThanThereIsRoomFor) {

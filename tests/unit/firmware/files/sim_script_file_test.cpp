@@ -5,8 +5,8 @@
 #include <chrono>
 #include <string>
 
+#include "tests/support/scratch_folder.hpp"
 #include "tests/unit/firmware/files/complaint.hpp"
-#include "tests/unit/firmware/files/scratch_folder.hpp"
 
 namespace ivo::firmware {
 namespace {
@@ -20,7 +20,7 @@ const std::string kScript =
     "[[at]]\nt_s = 3\ndrive = \"all\"\nfault = \"silent\"\non = false\n"                           // 8 to 12
     "[[at]]\nt_s = 4\ndrive = \"front_right\"\nfault = \"sdo_abort\"\nindex = 0x6060\nsub = 1\n";  // 13 to 18
 
-std::string complaint(std::string_view from, std::string_view to) {
+std::string complaint_about_script(std::string_view from, std::string_view to) {
   const ScratchFolder folder;
   return replaced(message_of(read_sim_script(folder.put("s.toml", replaced(kScript, from, to)))), folder.path() + "/",
                   "");
@@ -54,17 +54,17 @@ TEST(SimScriptFile, MayBeEmpty) {
 }
 
 TEST(SimScriptFile, RefusesByFileLineAndKey) {
-  EXPECT_EQ(complaint("\"slow_sdo\"", "\"slow\"").substr(0, 69),
+  EXPECT_EQ(complaint_about_script("\"slow_sdo\"", "\"slow\"").substr(0, 69),
             "s.toml:6: at[0].fault: \"slow\" is unknown; expected one of silent, no_");
   EXPECT_EQ(
-      complaint("\"rear_left\"", "\"left\""),
+      complaint_about_script("\"rear_left\"", "\"left\""),
       "s.toml:5: at[0].drive: \"left\" is unknown; expected \"front_left\" or \"front_right\" or \"rear_left\" or "
       "\"rear_right\" or \"all\"");
-  EXPECT_EQ(complaint("t_s = 2.5", "t_s = -1").substr(0, 21), "s.toml:4: at[0].t_s: ");
-  EXPECT_EQ(complaint("value = 20", "value = 4294967296").substr(0, 23), "s.toml:7: at[0].value: ");
-  EXPECT_EQ(complaint("value = 20", "valu = 20").substr(0, 22), "s.toml:7: at[0].valu: ");
-  EXPECT_EQ(complaint("drive = \"all\"\n", "").substr(0, 10), "s.toml:8: ");
-  EXPECT_EQ(complaint("seed = 7", "seed = 0").substr(0, 16), "s.toml:2: seed: ");
+  EXPECT_EQ(complaint_about_script("t_s = 2.5", "t_s = -1").substr(0, 21), "s.toml:4: at[0].t_s: ");
+  EXPECT_EQ(complaint_about_script("value = 20", "value = 4294967296").substr(0, 23), "s.toml:7: at[0].value: ");
+  EXPECT_EQ(complaint_about_script("value = 20", "valu = 20").substr(0, 22), "s.toml:7: at[0].valu: ");
+  EXPECT_EQ(complaint_about_script("drive = \"all\"\n", "").substr(0, 10), "s.toml:8: ");
+  EXPECT_EQ(complaint_about_script("seed = 7", "seed = 0").substr(0, 16), "s.toml:2: seed: ");
 }
 
 TEST(SimScriptFile, RefusesMoreEventsThanADriveHolds) {

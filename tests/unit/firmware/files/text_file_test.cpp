@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <string>
 
-#include "tests/unit/firmware/files/scratch_folder.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace ivo::firmware {
 namespace {

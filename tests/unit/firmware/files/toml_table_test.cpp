@@ -8,7 +8,7 @@ namespace ivo::firmware {
 namespace {
 
 /// The complaint about `text` read by `read`, or "fine".
-std::string complaint(std::string_view text, const std::function<void(const TomlValue&)>& read) {
+std::string complaint_about_table(std::string_view text, const std::function<void(const TomlValue&)>& read) {
   const Result<TomlFile> file = TomlFile::parse(text, "f.toml");
   if (!file) {
     return file.error().message;
@@ -41,21 +41,21 @@ TEST(TomlTable, HandsOutValuesOfEveryType) {
 }
 
 TEST(TomlTable, AcceptsBothEndsOfARange) {
-  EXPECT_EQ(complaint("speed_mps = 0.05", read_speed), "fine");
-  EXPECT_EQ(complaint("speed_mps = 3", read_speed), "fine");
+  EXPECT_EQ(complaint_about_table("speed_mps = 0.05", read_speed), "fine");
+  EXPECT_EQ(complaint_about_table("speed_mps = 3", read_speed), "fine");
 }
 
 TEST(TomlTable, RefusesWhatIsOutOfRangeByLineAndKey) {
-  EXPECT_EQ(complaint("\n\nspeed_mps = 5", read_speed),
+  EXPECT_EQ(complaint_about_table("\n\nspeed_mps = 5", read_speed),
             "f.toml:3: speed_mps: 5 is out of range; expected 0.05 to 3 (metres a second)");
-  EXPECT_EQ(complaint("speed_mps = 0.049", read_speed),
+  EXPECT_EQ(complaint_about_table("speed_mps = 0.049", read_speed),
             "f.toml:1: speed_mps: 0.049 is out of range; expected 0.05 to 3 (metres a second)");
 }
 
 TEST(TomlTable, RefusesWhatIsNoFiniteNumber) {
   for (const std::string word : {"nan", "inf", "-inf"}) {
     EXPECT_EQ(
-        complaint("speed_mps = " + word, read_speed),
+        complaint_about_table("speed_mps = " + word, read_speed),
         "f.toml:1: speed_mps: " + word + " is not a finite number; expected a number, 0.05 to 3 (metres a second)");
   }
 }
@@ -69,78 +69,84 @@ TEST(TomlTable, RefusesEveryWrongTypeOfANumber) {
       {"2024-01-01", "is a date or a time"},
   };
   for (const auto& [value, is] : wrong) {
-    EXPECT_EQ(complaint("speed_mps = " + value, read_speed),
+    EXPECT_EQ(complaint_about_table("speed_mps = " + value, read_speed),
               "f.toml:1: speed_mps: " + is + "; expected a number, 0.05 to 3 (metres a second)");
   }
 }
 
 TEST(TomlTable, RefusesPartsOfWholeNumbers) {
   const auto read = [](const TomlValue& root) { (void)root.required("ants").integer(1, 1000); };
-  EXPECT_EQ(complaint("ants = 2.5", read), "f.toml:1: ants: 2.5 is a number; expected a whole number, 1 to 1000");
-  EXPECT_EQ(complaint("ants = 0", read), "f.toml:1: ants: 0 is out of range; expected 1 to 1000");
+  EXPECT_EQ(complaint_about_table("ants = 2.5", read),
+            "f.toml:1: ants: 2.5 is a number; expected a whole number, 1 to 1000");
+  EXPECT_EQ(complaint_about_table("ants = 0", read), "f.toml:1: ants: 0 is out of range; expected 1 to 1000");
 }
 
 TEST(TomlTable, RefusesTextThatIsEmptyOrHoldsControlCharacters) {
   const auto read = [](const TomlValue& root) { (void)root.required("name").text(); };
-  EXPECT_EQ(complaint("name = ''", read), "f.toml:1: name: is empty; expected text");
-  EXPECT_EQ(complaint("name = \"a\\nb\"", read), "f.toml:1: name: holds a control character; expected plain text");
-  EXPECT_EQ(complaint("name = 5", read), "f.toml:1: name: 5 is a number; expected text in quotes");
+  EXPECT_EQ(complaint_about_table("name = ''", read), "f.toml:1: name: is empty; expected text");
+  EXPECT_EQ(complaint_about_table("name = \"a\\nb\"", read),
+            "f.toml:1: name: holds a control character; expected plain text");
+  EXPECT_EQ(complaint_about_table("name = 5", read), "f.toml:1: name: 5 is a number; expected text in quotes");
 }
 
 TEST(TomlTable, RefusesUnknownWordsAndNamesTheKnownOnes) {
   const auto read = [](const TomlValue& root) { (void)root.required("kind").choice({"robot", "person"}); };
-  EXPECT_EQ(complaint("kind = \"dog\"", read), "f.toml:1: kind: \"dog\" is unknown; expected \"robot\" or \"person\"");
-  EXPECT_EQ(complaint("kind = 3", read), "f.toml:1: kind: 3 is a number; expected \"robot\" or \"person\"");
+  EXPECT_EQ(complaint_about_table("kind = \"dog\"", read),
+            "f.toml:1: kind: \"dog\" is unknown; expected \"robot\" or \"person\"");
+  EXPECT_EQ(complaint_about_table("kind = 3", read), "f.toml:1: kind: 3 is a number; expected \"robot\" or \"person\"");
 }
 
 TEST(TomlTable, RefusesPointsThatAreNone) {
   const auto read = [](const TomlValue& root) { (void)root.required("start_m").point({0, 10, "metres"}); };
-  EXPECT_EQ(complaint("start_m = [1]", read), "f.toml:1: start_m: has 1 element; expected a list of 2 numbers, [x, y]");
-  EXPECT_EQ(complaint("start_m = [1, 2, 3]", read),
+  EXPECT_EQ(complaint_about_table("start_m = [1]", read),
+            "f.toml:1: start_m: has 1 element; expected a list of 2 numbers, [x, y]");
+  EXPECT_EQ(complaint_about_table("start_m = [1, 2, 3]", read),
             "f.toml:1: start_m: has 3 elements; expected a list of 2 numbers, [x, y]");
-  EXPECT_EQ(complaint("start_m = [\n1,\n-2]", read),
+  EXPECT_EQ(complaint_about_table("start_m = [\n1,\n-2]", read),
             "f.toml:3: start_m[1]: -2 is out of range; expected 0 to 10 (metres)");
 }
 
 TEST(TomlTable, NamesAMissingKeyAndItsUnit) {
-  EXPECT_EQ(complaint("", read_speed), "f.toml:1: speed_mps: missing; it must be given, in metres a second");
+  EXPECT_EQ(complaint_about_table("", read_speed),
+            "f.toml:1: speed_mps: missing; it must be given, in metres a second");
   const auto read = [](const TomlValue& root) { (void)root.required("t").required("name").text(); };
-  EXPECT_EQ(complaint("\n[t]\n", read), "f.toml:2: t.name: missing; it must be given");
+  EXPECT_EQ(complaint_about_table("\n[t]\n", read), "f.toml:2: t.name: missing; it must be given");
 }
 
 TEST(TomlTable, TellsTheRightUnitOfAQuantityInAnother) {
-  EXPECT_EQ(complaint("\nspeed_kmh = 5", read_speed),
+  EXPECT_EQ(complaint_about_table("\nspeed_kmh = 5", read_speed),
             "f.toml:2: speed_kmh: unknown; this quantity is given as speed_mps, in metres a second");
-  EXPECT_EQ(complaint("speed = 5", read_speed),
+  EXPECT_EQ(complaint_about_table("speed = 5", read_speed),
             "f.toml:1: speed: unknown; this quantity is given as speed_mps, in metres a second");
 }
 
 TEST(TomlTable, SuggestsTheNearestKeyToAMisspeltOne) {
-  EXPECT_EQ(complaint("speed_mps = 1\nsihgt_radius_m = 2", read_speed),
+  EXPECT_EQ(complaint_about_table("speed_mps = 1\nsihgt_radius_m = 2", read_speed),
             "f.toml:2: sihgt_radius_m: unknown; did you mean sight_radius_m?");
 }
 
 TEST(TomlTable, ListsTheKnownKeysWhenNoneIsNear) {
-  EXPECT_EQ(complaint("speed_mps = 1\ncolour = 2", read_speed),
+  EXPECT_EQ(complaint_about_table("speed_mps = 1\ncolour = 2", read_speed),
             "f.toml:2: colour: unknown; expected one of speed_mps, sight_radius_m");
 }
 
 TEST(TomlTable, ComplainsOfAnUnknownKeyBeforeTheMissingOneThatItExplains) {
-  EXPECT_EQ(complaint("\n\nspeed_mp = 1", read_speed), "f.toml:3: speed_mp: unknown; did you mean speed_mps?");
+  EXPECT_EQ(complaint_about_table("\n\nspeed_mp = 1", read_speed),
+            "f.toml:3: speed_mp: unknown; did you mean speed_mps?");
 }
 
 TEST(TomlTable, ComplainsOfTheFirstFaultInTheFile) {
-  EXPECT_EQ(complaint("sight_radius_m = 0\nspeed_mps = 9", read_speed),
+  EXPECT_EQ(complaint_about_table("sight_radius_m = 0\nspeed_mps = 9", read_speed),
             "f.toml:1: sight_radius_m: 0 is out of range; expected 0.1 to 100 (metres)");
 }
 
 TEST(TomlTable, RefusesAValueWhereATableBelongs) {
   const auto read = [](const TomlValue& root) { (void)root.required("bus").required("rate").integer(0, 9); };
-  EXPECT_EQ(complaint("bus = 5", read), "f.toml:1: bus: 5 is a number; expected a table");
+  EXPECT_EQ(complaint_about_table("bus = 5", read), "f.toml:1: bus: 5 is a number; expected a table");
 }
 
 TEST(TomlTable, ReportsASyntaxErrorByLine) {
-  const std::string message = complaint("a = 1\nb = = 2\n", read_speed);
+  const std::string message = complaint_about_table("a = 1\nb = = 2\n", read_speed);
   EXPECT_EQ(message.find("f.toml:2: not TOML: "), 0U) << message;
   EXPECT_NE(message.find("; expected TOML 1.0"), std::string::npos) << message;
   EXPECT_EQ(message.find('\n'), std::string::npos);
@@ -151,17 +157,18 @@ TEST(TomlTable, RefusesCharactersThatTheParserDoesNotExpect) {
   for (const std::string_view text :
        {"a = 1\n[(]\n", "a = 1\n[[*", "a = 1\n\xEF\xBB\xBE = 2\n", "a = 1\nb\xEF\xB7\xBA = 2\n",
         "a = 1\n[\xEF\xBB\xBE]\n", "a = 1\nb = \xEF\xAC\x80\n"}) {
-    EXPECT_EQ(complaint(text, read_speed).find("f.toml:2: not TOML: "), 0U) << text << complaint(text, read_speed);
+    EXPECT_EQ(complaint_about_table(text, read_speed).find("f.toml:2: not TOML: "), 0U)
+        << text << complaint_about_table(text, read_speed);
   }
 }
 
 TEST(TomlTable, RefusesTheSameKeyTwice) {
-  const std::string message = complaint("a = 1\na = 2\n", read_speed);
+  const std::string message = complaint_about_table("a = 1\na = 2\n", read_speed);
   EXPECT_EQ(message.find("f.toml:2: not TOML: "), 0U) << message;
 }
 
 TEST(TomlTable, KeepsAComplaintOnOneLineWhateverTheKeyHolds) {
-  const std::string message = complaint("speed_mps = 1\n\"a\\nb\" = 1", read_speed);
+  const std::string message = complaint_about_table("speed_mps = 1\n\"a\\nb\" = 1", read_speed);
   EXPECT_EQ(message.find("f.toml:2: a b: unknown"), 0U) << message;
 }
 

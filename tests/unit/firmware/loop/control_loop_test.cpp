@@ -7,12 +7,14 @@
 #include "drivers/drive_fault_text.hpp"
 #include "hal/sim/digital_inputs.hpp"
 #include "tests/support/search_rig.hpp"
+#include "tests/support/ticking_clock.hpp"
 
 namespace ivo::firmware {
 namespace {
 
 using std::chrono_literals::operator""ms;
 using std::chrono_literals::operator""s;
+using std::chrono_literals::operator""us;
 using test::SearchRig;
 
 bool has(const std::vector<Event>& events, EventKind kind) {
@@ -377,9 +379,9 @@ TEST(ControlLoop, AVeryLateCycleStopsTheRobotAndAFewLostPeriodsDoNot) {
   SearchRig rig({});
   ASSERT_TRUE(rig.start_search());
   rig.run(4s);
-  rig.cycle(rates::kLatestPeriods - 1);
+  rig.late_cycle(LoopParameters{}.latch_at - 1);
   EXPECT_EQ(rig.loop().status().mode, Mode::kSearching);
-  rig.cycle(rates::kLatestPeriods);
+  rig.late_cycle(LoopParameters{}.latch_at);
   EXPECT_EQ(rig.loop().status().mode, Mode::kFault);
   EXPECT_EQ(rig.loop().status().drive_fault.reason, drivers::DriveFaultReason::kCycleLate);
   rig.run(1s);
@@ -400,18 +402,109 @@ TEST(ControlLoop, LatenessThatDoesNotEndStopsTheRobotToo) {
   ASSERT_TRUE(rig.start_search());
   rig.run(4s);
   for (int i = 0; i < 4; ++i) {
-    ASSERT_EQ(rig.cycle(1).mode, Mode::kSearching);
+    ASSERT_EQ(rig.late_cycle(1).mode, Mode::kSearching);
     rig.run(40ms);
   }
-  rig.cycle(3);
+  rig.late_cycle(3);
   EXPECT_EQ(rig.loop().status().mode, Mode::kSearching);
-  rig.cycle(3);
+  rig.late_cycle(3);
   EXPECT_EQ(rig.loop().status().mode, Mode::kFault);
+}
+
+TEST(ControlLoop, SomeLostPeriodsRampTheRobotDownAndItGoesOnWhenTheyAreForgotten) {
+  SearchRig rig({});
+  ASSERT_TRUE(rig.start_search());
+  rig.run(4s);
+  ASSERT_GT(rig.speed_mps(), 0.3);
+  for (int i = 0; i < 30; ++i) {  // a period is lost every 16 cycles: never forgotten, never enough to latch
+    rig.late_cycle(i == 0 ? LoopParameters{}.ramp_down_at : i % 16 == 0 ? 1 : 0);
+  }
+  EXPECT_EQ(rig.loop().status().lateness, Lateness::kRampDown);
+  EXPECT_EQ(rig.loop().status().mode, Mode::kSearching);
+  double slowest_mps = rig.speed_mps();
+  for (int i = 0; i < 100; ++i) {
+    rig.cycle();
+    slowest_mps = std::min(slowest_mps, rig.speed_mps());
+  }
+  EXPECT_LT(slowest_mps, 0.35);
+  EXPECT_EQ(rig.loop().status().lateness, Lateness::kInTime);
+  ASSERT_TRUE(rig.run_until(Mode::kDone));
+  EXPECT_EQ(rig.loop().status().search, SearchState::kPathsEnded);
+}
+
+// The loop's clock tells of an oversleep in the cycle that wakes, the scheduler in the next one: of the same periods.
+TEST(ControlLoop, APeriodThatIsLostCountsOnce) {
+  struct Oversleep {
+    Duration late;
+    Lateness expected;
+  };
+  for (const auto& [late, expected] : {Oversleep{900us, Lateness::kInTime}, Oversleep{1800us, Lateness::kHeld},
+                                       Oversleep{4ms, Lateness::kHeld}, Oversleep{6ms, Lateness::kRampDown},
+                                       Oversleep{8ms, Lateness::kRampDown}, Oversleep{10ms, Lateness::kLatched}}) {
+    SearchRig rig({});
+    ASSERT_TRUE(rig.start_search());
+    rig.run(4s);
+    Scheduler scheduler(rig.now(), rates::kCycle);
+    Lateness worst = Lateness::kInTime;
+    Instant wakes = rig.now() + late;
+    std::int64_t skipped = 0;
+    for (int i = 0; i < 3; ++i) {
+      worst = std::max(worst, rig.cycle_at(wakes, skipped).lateness);
+      skipped = scheduler.advance(wakes, wakes + 20us);
+      wakes = scheduler.deadline();
+    }
+    EXPECT_EQ(worst, expected) << late.count() << " ns late";
+  }
+}
+
+TEST(ControlLoop, OnASimulatedBusALateHostDoesNotStopTheRobot) {
+  SearchRig rig({.overruns_count_only = true});
+  ASSERT_TRUE(rig.start_search());
+  rig.run(4s);
+  for (int i = 0; i < 10; ++i) {
+    ASSERT_EQ(rig.late_cycle(8).mode, Mode::kSearching);
+  }
+  EXPECT_EQ(rig.loop().status().counters.skipped, 80U);
+  EXPECT_EQ(rig.loop().status().lateness, Lateness::kHeld);
+}
+
+TEST(ControlLoop, TheSamePlanComesOutHoweverLongItsSlicesTake) {
+  SearchRig counted({});
+  ASSERT_TRUE(counted.run_until(Mode::kAwaitingConsent));
+  const planner::Plan expected = counted.loop().plan();
+  for (const Duration reading : {Duration(5us), Duration(20us), Duration(100us)}) {
+    test::TickingClock stopwatch(reading);
+    SearchRig timed({.stopwatch = &stopwatch});
+    ASSERT_TRUE(timed.run_until(Mode::kAwaitingConsent));
+    const planner::Plan& plan = timed.loop().plan();
+    ASSERT_EQ(plan.paths.size(), expected.paths.size());
+    for (std::size_t m = 0; m < plan.paths.size(); ++m) {
+      EXPECT_TRUE(std::ranges::equal(plan.paths[m].waypoints.span(), expected.paths[m].waypoints.span()));
+    }
+  }
+}
+
+TEST(ControlLoop, MeasuresEachOfItsPhasesOnceACycle) {
+  test::TickingClock stopwatch(7us);
+  SearchRig rig({.stopwatch = &stopwatch});
+  for (int i = 0; i < 50; ++i) {
+    rig.cycle();
+  }
+  const PhaseTimes& times = rig.loop().times();
+  EXPECT_EQ(times.cycle.count(), 50U);
+  Duration sum{};
+  for (const TimeHistogram& phase : times.phases) {
+    EXPECT_EQ(phase.count(), 50U);
+    sum += phase.total();
+  }
+  EXPECT_EQ(times.cycle.total(), sum);
+  EXPECT_EQ(times.of(Phase::kDecideMode).quantile(0.5), Duration(7us)) << "one reading after the other";
+  EXPECT_EQ(rig.loop().cycles(), 50U);
 }
 
 TEST(ControlLoop, SkippedPeriodsAreCountedAndRecorded) {
   SearchRig rig({});
-  rig.loop().cycle(rig.now(), 3);
+  rig.loop().cycle({.now = rig.now(), .skipped = 3});
   EXPECT_EQ(rig.loop().status().counters.skipped, 3U);
   EXPECT_TRUE(has(rig.events(), EventKind::kOverrun));
 }

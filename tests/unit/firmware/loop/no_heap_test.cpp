@@ -2,8 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <memory>
 #include <new>
+#include <optional>
 
+#include "firmware/record/recording_bus.hpp"
 #include "tests/support/heap_trap.hpp"
 #include "tests/support/search_rig.hpp"
 
@@ -11,6 +14,7 @@ namespace {
 
 bool counting = false;
 int allocations = 0;
+int* volatile kept = nullptr;  // where a compiler cannot see that it is not used
 
 void* allocate(std::size_t size) {
   allocations += counting ? 1 : 0;
@@ -49,9 +53,25 @@ TEST(ControlLoop, NoCycleAllocatesFromPlanningToPowerOff) {
   EXPECT_EQ(allocations, 0);
 
   counting = true;
-  delete new int(1);
+  kept = new int(1);
+  delete kept;
   counting = false;
   EXPECT_EQ(allocations, 1) << "the count itself does not work";
+}
+
+TEST(ControlLoop, ToRecordItsFramesAllocatesNothingEither) {
+  const auto ring = std::make_unique<FrameRing>();
+  std::optional<RecordingBus> recording;
+  test::SearchRig rig({.between = [&](hal::CanBus& bus) -> hal::CanBus& { return recording.emplace(bus, *ring); }});
+  counting = true;
+  const int before = allocations;
+  const bool started = rig.start_search();
+  const int after = allocations;
+  counting = false;
+  EXPECT_TRUE(started);
+  EXPECT_EQ(after, before);
+  RecordedFrame frame;
+  EXPECT_TRUE(ring->pop(frame));
 }
 
 }  // namespace

@@ -51,6 +51,39 @@ TEST_F(SearchRunTest, EndsWhenAllPathsHaveEnded) {
   EXPECT_DOUBLE_EQ(run.track(1).moved_m, 2.0);
 }
 
+TEST_F(SearchRunTest, GoesOnWhereItWasLeft) {
+  SearchRun first(*cells_, searchers_);
+  first.start(now_, *plan_, {});
+  first.update(now_ + 1200ms, {2, 3}, false);
+  const SearchProgress left{
+      .tracks = {first.track(0), first.track(1)}, .elapsed = first.elapsed(), .state = {}, .finder = {}};
+
+  SearchRun second(*cells_, searchers_);
+  second.resume(*plan_, {}, left);
+  EXPECT_EQ(second.elapsed(), 1200ms);
+  EXPECT_EQ(second.track(0).position, (Point{2, 3}));
+  EXPECT_EQ(second.track(1).position, (Point{8.2, 3}));
+  const Instant later{900s};
+  second.go_on(later);
+  second.update(later + 300ms, {2, 3.5}, false);
+  EXPECT_EQ(second.elapsed(), 1500ms);
+  EXPECT_DOUBLE_EQ(second.track(0).moved_m, 1.5);
+  EXPECT_DOUBLE_EQ(second.track(1).position.x_m, 8.5);
+  EXPECT_DOUBLE_EQ(second.track(1).moved_m, 1.5);
+  second.update(later + 1s, {2, 4}, true);
+  EXPECT_EQ(second.state(), SearchState::kPathsEnded);
+}
+
+TEST_F(SearchRunTest, WhatWasFoundIsNotSearchedForAgain) {
+  SearchRun run(*cells_, searchers_);
+  run.resume(*plan_, {}, {.tracks = {}, .elapsed = 3s, .state = SearchState::kFound, .finder = 1});
+  run.go_on(now_);
+  run.update(now_ + 1s, {2, 2}, false);
+  EXPECT_EQ(run.state(), SearchState::kFound);
+  EXPECT_EQ(run.finder(), 1);
+  EXPECT_EQ(run.elapsed(), 3s);
+}
+
 TEST_F(SearchRunTest, TheAgentThatSeesTheObjectFindsIt) {
   SearchRun run(*cells_, searchers_);
   run.start(now_, *plan_, SearchObject({8.0, 4.9}, FindRule::kSight));

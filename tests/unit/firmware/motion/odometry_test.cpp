@@ -11,7 +11,7 @@
 namespace ivo::firmware {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double kStep_s = 0.002;
 
 /// Wheels that turn as a twist says, without slip.
@@ -47,7 +47,7 @@ class OdometryOf : public testing::TestWithParam<WheelGeometry> {
   void expect_pose(double x_m, double y_m, double heading_rad) const {
     EXPECT_NEAR(odometry_.pose().x_m, x_m, 1e-9);
     EXPECT_NEAR(odometry_.pose().y_m, y_m, 1e-9);
-    EXPECT_NEAR(std::remainder(odometry_.pose().heading_rad - heading_rad, 2 * kPi), 0.0, 1e-9);
+    EXPECT_NEAR(std::remainder(odometry_.pose().heading_rad - heading_rad, 2 * pi), 0.0, 1e-9);
   }
   static BaseParameters base() {
     BaseParameters base;
@@ -75,21 +75,21 @@ TEST_P(OdometryOf, ASquareWithHeldHeadingEndsWhereItBegan) {
 TEST_P(OdometryOf, ASquareWithTurnsOnTheSpotEndsWhereItBegan) {
   for (int side = 0; side < 4; ++side) {
     drive({0.5, 0, 0}, 2);
-    drive({0, 0, kPi / 4}, 2);
+    drive({0, 0, pi / 4}, 2);
   }
   expect_pose(1.0, 2.0, 0.0);
 }
 
 TEST_P(OdometryOf, ACircleIsExactHoweverFewReadingsItHas) {
   // Radius 0.5 to the left: the centre is (1, 2.5), half the circle ends at (1, 3).
-  drive({0.5, 0, 1.0}, kPi, kPi / 2);
-  expect_pose(1.0, 3.0, kPi);
-  drive({0.5, 0, 1.0}, kPi, kPi / 2);
+  drive({0.5, 0, 1.0}, pi, pi / 2);
+  expect_pose(1.0, 3.0, pi);
+  drive({0.5, 0, 1.0}, pi, pi / 2);
   expect_pose(1.0, 2.0, 0.0);
 }
 
 TEST_P(OdometryOf, ACircleAtTheLoopsRateIsExact) {
-  drive({0.3, 0.4, -0.8}, 2 * kPi / 0.8);
+  drive({0.3, 0.4, -0.8}, 2 * pi / 0.8);
   expect_pose(1.0, 2.0, 0.0);
 }
 
@@ -114,12 +114,12 @@ TEST_P(OdometryOf, AReadingThatIsNotANumberIsRefusedAndTheNextMakesUpForIt) {
 }
 
 TEST_P(OdometryOf, AResetForgetsWhatTheWheelsDidBefore) {
-  odometry_.reset({5.0, 5.0, kPi / 2});
+  odometry_.reset({5.0, 5.0, pi / 2});
   wheels_.turn({1.0, 0, 0}, 10.0);
   odometry_.update(wheels_.angles_rad());
-  expect_pose(5.0, 5.0, kPi / 2);
+  expect_pose(5.0, 5.0, pi / 2);
   drive({0.5, 0, 0}, 2.0);
-  expect_pose(5.0, 6.0, kPi / 2);
+  expect_pose(5.0, 6.0, pi / 2);
 }
 
 TEST_P(OdometryOf, SaysWhatTheLastReadingMoved) {
@@ -143,13 +143,13 @@ TEST(Arc, AgreesOnBothSidesOfTheSeries) {
 }
 
 TEST(Arc, IsAStraightLineWithoutTurn) {
-  const Pose there = advance({1, 1, kPi / 2}, {2.0, 1.0, 0.0}, 0.5);
+  const Pose there = advance({1, 1, pi / 2}, {2.0, 1.0, 0.0}, 0.5);
   EXPECT_NEAR(there.x_m, 0.5, 1e-15);
   EXPECT_NEAR(there.y_m, 2.0, 1e-15);
 }
 
 TEST(Arc, KeepsTheHeadingWithinHalfATurn) {
-  EXPECT_NEAR(advance({0, 0, 3.0}, {0, 0, 1.0}, 1.0).heading_rad, 4.0 - 2 * kPi, 1e-12);
+  EXPECT_NEAR(advance({0, 0, 3.0}, {0, 0, 1.0}, 1.0).heading_rad, 4.0 - 2 * pi, 1e-12);
 }
 
 }  // namespace

@@ -16,8 +16,8 @@
 namespace ivo::firmware {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr Duration kCycle = std::chrono::milliseconds(2);
+using std::numbers::pi;
+constexpr Duration kPeriod = std::chrono::milliseconds(2);
 using Path = std::vector<Point>;
 
 double distance(Point a, Point b) { return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m); }
@@ -105,22 +105,22 @@ class PerfectBase {
     double left_m = std::numeric_limits<double>::infinity();
     Tube tube(path, tolerance_m);
     while (!run.reached && run.duration_s < patience_s) {
-      const PathFollower::Output out = follower.update({pose_, limiter.current(), kCycle});
-      const Twist sent = limiter.limit(out.command, kCycle);
+      const PathFollower::Output out = follower.update({pose_, limiter.current(), kPeriod});
+      const Twist sent = limiter.limit(out.command, kPeriod);
       run.limiter_acted =
           run.limiter_acted || distance({sent.vx_mps, sent.vy_mps}, {out.command.vx_mps, out.command.vy_mps}) > 1e-12;
       run.distance_grew = run.distance_grew || out.distance_left_m > left_m + 1e-9;
       left_m = out.distance_left_m;
       run.reached = out.reached;
-      pose_ = advance(pose_, sent, seconds(kCycle));
-      run.duration_s += seconds(kCycle);
+      pose_ = advance(pose_, sent, seconds(kPeriod));
+      run.duration_s += seconds(kPeriod);
       tube.pass(pose_.point());
       run.worst_heading_rad =
-          std::max(run.worst_heading_rad, std::abs(std::remainder(pose_.heading_rad - heading_rad, 2 * kPi)));
+          std::max(run.worst_heading_rad, std::abs(std::remainder(pose_.heading_rad - heading_rad, 2 * pi)));
     }
     while (limiter.current().vx_mps != 0 || limiter.current().vy_mps != 0) {
-      pose_ = advance(pose_, limiter.limit(follower.update({pose_, limiter.current(), kCycle}).command, kCycle),
-                      seconds(kCycle));
+      pose_ = advance(pose_, limiter.limit(follower.update({pose_, limiter.current(), kPeriod}).command, kPeriod),
+                      seconds(kPeriod));
     }
     run.kept_to_path = tube.kept();
     run.end_error_m = distance(pose_.point(), path.back());
@@ -149,8 +149,8 @@ Path random_path(std::mt19937_64& random, int points, double shortest_m, double 
 TEST(PathFollower, StaysWithinTenCentimetresOfAnyPolyline) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     std::mt19937_64 random(seed);
-    const Path path = random_path(random, 25, 0.2, seed % 2 == 0 ? 10.0 : 0.6, kPi);
-    std::uniform_real_distribution<double> heading(-kPi, kPi);
+    const Path path = random_path(random, 25, 0.2, seed % 2 == 0 ? 10.0 : 0.6, pi);
+    std::uniform_real_distribution<double> heading(-pi, pi);
     const Drive run = PerfectBase({20.0, 20.0, heading(random)}).follow(path);
     ASSERT_TRUE(run.reached) << "seed " << seed;
     ASSERT_TRUE(run.kept_to_path) << "seed " << seed;
@@ -164,7 +164,7 @@ TEST(PathFollower, StaysWithinTenCentimetresOfAnyPolyline) {
 TEST(PathFollower, TakesLittleLongerThanLengthOverSpeedOnGentlePaths) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     std::mt19937_64 random(seed);
-    const Path path = random_path(random, 15, 2.0, 6.0, kPi / 6);
+    const Path path = random_path(random, 15, 2.0, 6.0, pi / 6);
     const Drive run = PerfectBase({20.0, 20.0, 0.0}).follow(path);
     ASSERT_TRUE(run.reached) << "seed " << seed;
     const double ideal_s = length_of(path) / MotionLimits{}.max_speed_mps;
@@ -179,7 +179,7 @@ TEST(PathFollower, FollowsAnImprovedPlanAtThePaceItAssumes) {
                   {13.859, 11.984}, {15.906, 14.766}, {12.766, 16.547}, {7.563, 17.797},  {8.564, 13.517},
                   {10.688, 10.688}, {11.922, 6.578},  {12.969, 5.719},  {7.984, 4.844},   {12.144, 8.789}};
   const double assumed_mps = 0.35;
-  const Drive run = PerfectBase({10.5, 10.0, kPi / 2}).follow(plan);
+  const Drive run = PerfectBase({10.5, 10.0, pi / 2}).follow(plan);
   EXPECT_TRUE(run.reached);
   EXPECT_TRUE(run.kept_to_path);
   EXPECT_LT(run.end_error_m, PathFollower::kEndTolerance_m);
@@ -237,7 +237,7 @@ TEST(PathFollower, KeepsToThePathWithAnyBaseThatARobotFileMayDescribe) {
       limits.max_speed_mps = speed_mps;
       limits.max_accel_mps2 = accel_mps2;
       std::mt19937_64 random(5);
-      const Drive run = PerfectBase({20, 20, 1.0}, limits).follow(random_path(random, 20, 0.2, 3.0, kPi));
+      const Drive run = PerfectBase({20, 20, 1.0}, limits).follow(random_path(random, 20, 0.2, 3.0, pi));
       EXPECT_TRUE(run.reached) << speed_mps << " m/s, " << accel_mps2 << " m/s^2";
       EXPECT_TRUE(run.kept_to_path) << speed_mps << " m/s, " << accel_mps2 << " m/s^2";
       EXPECT_FALSE(run.limiter_acted) << speed_mps << " m/s, " << accel_mps2 << " m/s^2";
@@ -261,7 +261,7 @@ TEST(PathFollower, JoinsTheFirstSegmentWhereItStandsOnIt) {
 TEST(PathFollower, RefusesAnEmptyPath) {
   PathFollower follower{MotionLimits{}};
   EXPECT_FALSE(follower.start({}, {}));
-  const PathFollower::Output out = follower.update({{}, {0.3, 0, 0}, kCycle});
+  const PathFollower::Output out = follower.update({{}, {0.3, 0, 0}, kPeriod});
   EXPECT_EQ(out.command.vx_mps, 0.0);
   EXPECT_FALSE(out.reached);
 }
@@ -287,16 +287,16 @@ TEST(PathFollower, ForgetsTheOldPathWhenTheNewOneIsRefused) {
   PathFollower follower{MotionLimits{}};
   const Path path{{0, 0}, {1, 0}};
   ASSERT_TRUE(follower.start(path, {}));
-  ASSERT_GT(follower.update({{}, {}, kCycle}).command.vx_mps, 0.0);
+  ASSERT_GT(follower.update({{}, {}, kPeriod}).command.vx_mps, 0.0);
   ASSERT_FALSE(follower.start({}, {}));
-  EXPECT_EQ(follower.update({{}, {}, kCycle}).command.vx_mps, 0.0);
+  EXPECT_EQ(follower.update({{}, {}, kPeriod}).command.vx_mps, 0.0);
 }
 
 TEST(PathFollower, HasReachedASinglePointItStandsOn) {
   const Path path{{1, 1}};
   PathFollower follower{MotionLimits{}};
   ASSERT_TRUE(follower.start(path, {1, 1, 0}));
-  EXPECT_TRUE(follower.update({{1, 1, 0}, {}, kCycle}).reached);
+  EXPECT_TRUE(follower.update({{1, 1, 0}, {}, kPeriod}).reached);
 }
 
 TEST(PathFollower, DrivesToASinglePoint) {
@@ -326,66 +326,66 @@ TEST(PathFollower, IsNotThereYetWhileItIsFast) {
   const Path path{{0, 0}, {1, 0}};
   PathFollower follower{MotionLimits{}};
   ASSERT_TRUE(follower.start(path, {}));
-  EXPECT_FALSE(follower.update({{0.99, 0, 0}, {0.4, 0, 0}, kCycle}).reached);
-  EXPECT_TRUE(follower.update({{0.99, 0, 0}, {0.05, 0, 0}, kCycle}).reached);
+  EXPECT_FALSE(follower.update({{0.99, 0, 0}, {0.4, 0, 0}, kPeriod}).reached);
+  EXPECT_TRUE(follower.update({{0.99, 0, 0}, {0.05, 0, 0}, kPeriod}).reached);
 }
 
 TEST(PathFollower, StaysReachedUntilItIsStartedAgain) {
   const Path path{{0, 0}, {1, 0}};
   PathFollower follower{MotionLimits{}};
   ASSERT_TRUE(follower.start(path, {}));
-  ASSERT_TRUE(follower.update({{1, 0, 0}, {}, kCycle}).reached);
-  const PathFollower::Output pushed = follower.update({{0.5, 0, 0}, {}, kCycle});
+  ASSERT_TRUE(follower.update({{1, 0, 0}, {}, kPeriod}).reached);
+  const PathFollower::Output pushed = follower.update({{0.5, 0, 0}, {}, kPeriod});
   EXPECT_TRUE(pushed.reached);
   EXPECT_EQ(pushed.command.vx_mps, 0.0);
   ASSERT_TRUE(follower.start(path, {0.5, 0, 0}));
-  EXPECT_FALSE(follower.update({{0.5, 0, 0}, {}, kCycle}).reached);
+  EXPECT_FALSE(follower.update({{0.5, 0, 0}, {}, kPeriod}).reached);
 }
 
 TEST(PathFollower, ComesBackWhenItIsCarriedPastTheEnd) {
   const Path path{{0, 0}, {1, 0}};
   PathFollower follower{MotionLimits{}};
   ASSERT_TRUE(follower.start(path, {}));
-  EXPECT_LT(follower.update({{1.3, 0, 0}, {}, kCycle}).command.vx_mps, 0.0);
-  EXPECT_GT(follower.update({{0.9, 0, 0}, {}, kCycle}).command.vx_mps, 0.0) << "and when carried back again";
+  EXPECT_LT(follower.update({{1.3, 0, 0}, {}, kPeriod}).command.vx_mps, 0.0);
+  EXPECT_GT(follower.update({{0.9, 0, 0}, {}, kPeriod}).command.vx_mps, 0.0) << "and when carried back again";
 }
 
 TEST(PathFollower, ReturnsToThePathBeforeItGoesOn) {
   const Path path{{0, 0}, {5, 0}};
   PathFollower follower{MotionLimits{}};
   ASSERT_TRUE(follower.start(path, {}));
-  const PathFollower::Output out = follower.update({{2, 0.3, 0}, {}, kCycle});
+  const PathFollower::Output out = follower.update({{2, 0.3, 0}, {}, kPeriod});
   EXPECT_NEAR(out.cross_track_m, 0.3, 1e-12);
   EXPECT_EQ(out.command.vx_mps, 0.0);
   EXPECT_LT(out.command.vy_mps, 0.0);
-  EXPECT_NEAR(follower.update({{2, -0.2, 0}, {}, kCycle}).cross_track_m, -0.2, 1e-12);
+  EXPECT_NEAR(follower.update({{2, -0.2, 0}, {}, kPeriod}).cross_track_m, -0.2, 1e-12);
 }
 
 TEST(PathFollower, NeverTakesBackProgress) {
   const Path path{{0, 0}, {5, 0}};
   PathFollower follower{MotionLimits{}};
   ASSERT_TRUE(follower.start(path, {}));
-  EXPECT_NEAR(follower.update({{2, 0, 0}, {}, kCycle}).distance_left_m, 3.0, 1e-12);
-  EXPECT_NEAR(follower.update({{1, 0, 0}, {}, kCycle}).distance_left_m, 3.0, 1e-12);
+  EXPECT_NEAR(follower.update({{2, 0, 0}, {}, kPeriod}).distance_left_m, 3.0, 1e-12);
+  EXPECT_NEAR(follower.update({{1, 0, 0}, {}, kPeriod}).distance_left_m, 3.0, 1e-12);
 }
 
 TEST(PathFollower, TurnsBackToItsHeading) {
   const Path path{{0, 0}, {5, 0}};
   PathFollower follower{MotionLimits{}};
   ASSERT_TRUE(follower.start(path, {0, 0, 3.1}));
-  EXPECT_LT(follower.update({{0, 0, -3.1}, {}, kCycle}).command.wz_radps, 0.0) << "the short way round";
-  EXPECT_GT(follower.update({{0, 0, 3.0}, {}, kCycle}).command.wz_radps, 0.0);
+  EXPECT_LT(follower.update({{0, 0, -3.1}, {}, kPeriod}).command.wz_radps, 0.0) << "the short way round";
+  EXPECT_GT(follower.update({{0, 0, 3.0}, {}, kPeriod}).command.wz_radps, 0.0);
 }
 
 TEST(PathFollower, CommandsNothingFromAPoseThatIsNotANumber) {
   const Path path{{0, 0}, {5, 0}};
   PathFollower follower{MotionLimits{}};
   ASSERT_TRUE(follower.start(path, {}));
-  const PathFollower::Output out = follower.update({{std::nan(""), 0, 0}, {0.4, 0, 0}, kCycle});
+  const PathFollower::Output out = follower.update({{std::nan(""), 0, 0}, {0.4, 0, 0}, kPeriod});
   EXPECT_EQ(out.command.vx_mps, 0.0);
   EXPECT_EQ(out.distance_left_m, 5.0);
   EXPECT_FALSE(out.reached);
-  EXPECT_GT(follower.update({{0.1, 0, 0}, {0.4, 0, 0}, kCycle}).command.vx_mps, 0.0) << "and goes on when it is";
+  EXPECT_GT(follower.update({{0.1, 0, 0}, {0.4, 0, 0}, kPeriod}).command.vx_mps, 0.0) << "and goes on when it is";
 }
 
 TEST(PathFollower, BringsABaseThatMeasuresOnlyItsWheelsToTheEnd) {
@@ -400,10 +400,10 @@ TEST(PathFollower, BringsABaseThatMeasuresOnlyItsWheelsToTheEnd) {
   ASSERT_TRUE(follower.start(path, odometry.pose()));
   bool reached = false;
   for (int cycle = 0; cycle < 20'000 && !reached; ++cycle) {
-    const PathFollower::Output out = follower.update({odometry.pose(), limiter.current(), kCycle});
-    const WheelValues speeds = kinematics.wheel_speeds(limiter.limit(out.command, kCycle));
+    const PathFollower::Output out = follower.update({odometry.pose(), limiter.current(), kPeriod});
+    const WheelValues speeds = kinematics.wheel_speeds(limiter.limit(out.command, kPeriod));
     for (std::size_t i = 0; i < kWheels; ++i) {
-      angles_rad[i] += speeds[i] * seconds(kCycle);
+      angles_rad[i] += speeds[i] * seconds(kPeriod);
     }
     ASSERT_TRUE(odometry.update(angles_rad));
     reached = out.reached;

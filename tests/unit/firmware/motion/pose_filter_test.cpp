@@ -22,12 +22,12 @@ using std::chrono_literals::operator""us;
 using std::chrono_literals::operator""ns;
 using std::chrono_literals::operator""s;
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr Instant kStart{10s};
 const PoseCovariance kUnsure = covariance_of(0.1, 0.1, 0.05);
 
-double between(double a_rad, double b_rad) { return std::remainder(a_rad - b_rad, 2 * kPi); }
+double between(double a_rad, double b_rad) { return std::remainder(a_rad - b_rad, 2 * pi); }
 
 void expect_same(const PoseFilter& a, const PoseFilter& b, double tolerance) {
   EXPECT_NEAR(a.pose().x_m, b.pose().x_m, tolerance);
@@ -102,13 +102,13 @@ TEST(PoseFilter, AgreesWithASumOfGaussiansByHand) {
 }
 
 TEST(PoseFilter, TakesTheShortWayRoundToAHeadingBeyondHalfATurn) {
-  Driven robot({0, 0, kPi - 0.02}, covariance_of(0.1, 0.1, 0.1));
+  Driven robot({0, 0, pi - 0.02}, covariance_of(0.1, 0.1, 0.1));
   robot.drive({}, 2ms);
-  ASSERT_EQ(robot.filter.correct({{0, 0, -kPi + 0.02}, covariance_of(0.1, 0.1, 0.1), robot.now}), PoseRefusal::kNone);
-  EXPECT_NEAR(std::abs(robot.filter.pose().heading_rad), kPi, 1e-9);
+  ASSERT_EQ(robot.filter.correct({{0, 0, -pi + 0.02}, covariance_of(0.1, 0.1, 0.1), robot.now}), PoseRefusal::kNone);
+  EXPECT_NEAR(std::abs(robot.filter.pose().heading_rad), pi, 1e-9);
   // Whole turns more or less are the same heading.
-  ASSERT_EQ(robot.filter.correct({{0, 0, 7 * kPi}, covariance_of(0.1, 0.1, 0.1), robot.now}), PoseRefusal::kNone);
-  EXPECT_NEAR(std::abs(robot.filter.pose().heading_rad), kPi, 1e-9);
+  ASSERT_EQ(robot.filter.correct({{0, 0, 7 * pi}, covariance_of(0.1, 0.1, 0.1), robot.now}), PoseRefusal::kNone);
+  EXPECT_NEAR(std::abs(robot.filter.pose().heading_rad), pi, 1e-9);
 }
 
 TEST(PoseFilter, TakesALatePoseAtItsTimeAsIfItHadComeThen) {
@@ -388,7 +388,7 @@ TEST(PoseFilter, AResetForgetsWhatWasSeenBefore) {
   Driven robot;
   robot.drive({0.5, 0, 0}, 300ms);
   ASSERT_EQ(robot.filter.correct({robot.filter.pose(), kUnsure, robot.now - 100ms}), PoseRefusal::kNone);
-  ASSERT_EQ(robot.filter.reset({5, 5, 4 * kPi + 1}, kUnsure, robot.now), PoseRefusal::kNone);
+  ASSERT_EQ(robot.filter.reset({5, 5, 4 * pi + 1}, kUnsure, robot.now), PoseRefusal::kNone);
   EXPECT_NEAR(robot.filter.pose().heading_rad, 1.0, 1e-12);
   EXPECT_EQ(robot.filter.correct({{5, 5, 1}, kUnsure, robot.now - 2ms}), PoseRefusal::kTooOld);
   Driven fresh({5, 5, 1});

@@ -12,7 +12,7 @@ namespace {
 constexpr double kRadius_m = 0.10;
 const SlipParameters kParameters{.wheel_sigma_mps = 0.01, .share = 0.04, .limit_sigma = 6.0, .cycles = 10};
 
-BaseParameters base_of(WheelGeometry geometry) {
+BaseParameters slipping_base(WheelGeometry geometry) {
   BaseParameters base;
   base.geometry = geometry;
   base.wheel_radius_m = kRadius_m;
@@ -21,7 +21,7 @@ BaseParameters base_of(WheelGeometry geometry) {
 
 class SlipMonitorOf : public testing::TestWithParam<WheelGeometry> {
  protected:
-  Kinematics kinematics_{base_of(GetParam())};
+  Kinematics kinematics_{slipping_base(GetParam())};
   SlipMonitor monitor_{kinematics_, kRadius_m, kParameters};
 };
 INSTANTIATE_TEST_SUITE_P(BothGeometries, SlipMonitorOf,
@@ -105,7 +105,7 @@ TEST_P(SlipMonitorOf, TakesASpeedThatIsNotANumberForSlip) {
 }
 
 TEST(SlipMonitorDeathTest, BreaksWithoutAnyTolerance) {
-  const Kinematics kinematics(base_of(WheelGeometry::kMecanum));
+  const Kinematics kinematics(slipping_base(WheelGeometry::kMecanum));
   EXPECT_DEATH(SlipMonitor(kinematics, kRadius_m, {.wheel_sigma_mps = 0.0}), "");
   EXPECT_DEATH(SlipMonitor(kinematics, kRadius_m, {.cycles = 0}), "");
 }

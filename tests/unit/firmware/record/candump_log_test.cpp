@@ -1,16 +1,15 @@
 #include "firmware/record/candump_log.hpp"
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
 #include <chrono>
-#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <memory>
 #include <sstream>
 
-#include "tests/unit/firmware/files/scratch_folder.hpp"
+#include "tests/support/scratch_folder.hpp"
+#include "tests/support/small_disk.hpp"
 
 namespace ivo::firmware {
 namespace {
@@ -106,25 +105,6 @@ TEST_F(CandumpLogTest, SaysHowManyFramesTheRingLost) {
             path() + ": 1 frames are missing in between; expected a disk and a terminal that keep up");
   EXPECT_EQ(log.value().frames(), kRecordedFrames);
 }
-
-/// No file grows beyond `bytes` while this lives.
-class SmallDisk {
- public:
-  explicit SmallDisk(rlim_t bytes) {
-    (void)getrlimit(RLIMIT_FSIZE, &before_);
-    handler_ = std::signal(SIGXFSZ, SIG_IGN);
-    const rlimit limit{.rlim_cur = bytes, .rlim_max = before_.rlim_max};
-    (void)setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~SmallDisk() {
-    (void)setrlimit(RLIMIT_FSIZE, &before_);
-    (void)std::signal(SIGXFSZ, handler_);
-  }
-
- private:
-  rlimit before_{};
-  void (*handler_)(int) = SIG_DFL;
-};
 
 // A line is 30 bytes; each of these ends the disk at another place in it.
 TEST_F(CandumpLogTest, EndsWithAWholeLineWhenTheDiskIsFull) {

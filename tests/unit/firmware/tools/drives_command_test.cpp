@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <cstdio>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -12,6 +11,7 @@
 #include "drivers/canopen/nmt.hpp"
 #include "firmware/tools/drives_log.hpp"
 #include "hal/sim/virtual_bus.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace ivo::firmware {
 namespace {
@@ -65,7 +65,8 @@ TEST(DrivesCommand, RefusesFilesThatAreNotThereBeforeItTouchesTheBus) {
 }
 
 TEST(DrivesLog, HasALineForEachChangeAndNoneTwice) {
-  const std::string path = testing::TempDir() + "ivo_drives_log.txt";
+  const ScratchFolder folder;
+  const std::string path = folder.path("drives.txt");
   hal::VirtualBus bus;
   drivers::SimDrives drives(bus.port(1), Robot{}, drivers::SimDrives::TimeFrom::kClock);
   drives.open();
@@ -86,7 +87,6 @@ TEST(DrivesLog, HasALineForEachChangeAndNoneTwice) {
             "t_s=0.000000 node=3 nmt=pre_operational power=switch_on_disabled velocity=0 wheel=rests\n"
             "t_s=0.000000 node=4 nmt=pre_operational power=switch_on_disabled velocity=0 wheel=rests\n"
             "t_s=1.500000 node=2 nmt=stopped power=switch_on_disabled velocity=0 wheel=rests\n");
-  std::remove(path.c_str());
 }
 
 TEST(DrivesCommand, RefusesARobotFileThatIsNotThereBeforeItTouchesTheBus) {

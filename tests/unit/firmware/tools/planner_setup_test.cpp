@@ -6,9 +6,9 @@
 #include <string>
 #include <utility>
 
+#include "tests/support/scratch_folder.hpp"
 #include "tests/support/shared_planner.hpp"
 #include "tests/unit/firmware/files/complaint.hpp"
-#include "tests/unit/firmware/files/scratch_folder.hpp"
 #include "tests/unit/firmware/files/written_png.hpp"
 
 namespace ivo::firmware {

@@ -16,7 +16,7 @@
 namespace ivo::planner {
 namespace {
 
-constexpr double kAgreement = 1e-9;
+constexpr double kClose = 1e-9;
 
 double cost(const PlanScore& score) {
   return test::shared_planner().belief().has_sub_priors ? score.expected_sub_prior_time_s
@@ -41,14 +41,14 @@ void expect_worth_what_is_said(const SearchProblem& problem, const Plan& plan) {
   }
   const Planner& planner = test::shared_planner();
   const PlanScore exact = scorer.score(planner.cells(), planner.belief(), paths, problem.colony.ant.max_unseen_mass);
-  EXPECT_NEAR(plan.score.expected_time_s, exact.expected_time_s, kAgreement);
-  EXPECT_NEAR(plan.score.expected_time_continuous_s, exact.expected_time_continuous_s, kAgreement);
-  EXPECT_NEAR(plan.score.expected_sub_prior_time_s, exact.expected_sub_prior_time_s, kAgreement);
-  EXPECT_NEAR(plan.score.unseen_mass, exact.unseen_mass, kAgreement);
-  EXPECT_NEAR(plan.score.horizon_s, exact.horizon_s, kAgreement);
+  EXPECT_NEAR(plan.score.expected_time_s, exact.expected_time_s, kClose);
+  EXPECT_NEAR(plan.score.expected_time_continuous_s, exact.expected_time_continuous_s, kClose);
+  EXPECT_NEAR(plan.score.expected_sub_prior_time_s, exact.expected_sub_prior_time_s, kClose);
+  EXPECT_NEAR(plan.score.unseen_mass, exact.unseen_mass, kClose);
+  EXPECT_NEAR(plan.score.horizon_s, exact.horizon_s, kClose);
   EXPECT_EQ(plan.score.complete, exact.complete);
   for (std::size_t m = 0; m < plan.paths.size(); ++m) {
-    EXPECT_NEAR(plan.paths[m].duration_s, scorer.path_end_s(static_cast<int>(m)), kAgreement);
+    EXPECT_NEAR(plan.paths[m].duration_s, scorer.path_end_s(static_cast<int>(m)), kClose);
     EXPECT_NEAR(plan.paths[m].length_m, length_m(plan.paths[m].waypoints.span()),
                 kFixedPoint ? test::kAgreement : 1e-6);
   }
@@ -177,7 +177,7 @@ TEST(Improver, TakesATenthOffWhatTheShortColonyFound) {
 }
 
 // All that a plan says, to compare bit for bit.
-std::vector<double> numbers_of(const Plan& plan) {
+std::vector<double> all_said_by(const Plan& plan) {
   const PlanScore& s = plan.score;
   std::vector<double> numbers = {s.expected_time_s, s.expected_time_continuous_s, s.expected_sub_prior_time_s,
                                  s.unseen_mass, s.horizon_s};
@@ -190,20 +190,20 @@ std::vector<double> numbers_of(const Plan& plan) {
   return numbers;
 }
 
-std::vector<double> plan_in_slices(const SearchProblem& problem, int units) {
+std::vector<double> improved_in_slices(const SearchProblem& problem, int units) {
   static Plan plan;
   Planner& planner = test::shared_planner();
   EXPECT_FALSE(planner.prepare(problem));
   while (!planner.step({units}).done) {
   }
   planner.best_plan(plan);
-  return numbers_of(plan);
+  return all_said_by(plan);
 }
 
 void expect_same_plan_however_sliced(const SearchProblem& problem) {
-  const std::vector<double> whole = plan_in_slices(problem, 10'000);
+  const std::vector<double> whole = improved_in_slices(problem, 10'000);
   for (const int units : {1, 97}) {
-    EXPECT_EQ(plan_in_slices(problem, units), whole) << "in slices of " << units;
+    EXPECT_EQ(improved_in_slices(problem, units), whole) << "in slices of " << units;
   }
 }
 

@@ -24,7 +24,7 @@ namespace {
 using SeenCells = std::vector<bool>;
 
 constexpr int kWidth = 4;
-constexpr double kRounding = kFixedPoint ? 1e-6 : 1e-12;
+constexpr double kSameMass = kFixedPoint ? 1e-6 : 1e-12;
 
 class SlowLookahead {
  public:
@@ -184,7 +184,7 @@ TEST(Lookahead, TakesTheFirstMoveOfTheBestSequence) {
     } else if (!slow.tied()) {
       ++decided;
       ASSERT_GE(lookahead->first_move(), 0);
-      EXPECT_NEAR(slow.value(lookahead->first_move(), 0.0, moves, cells), best, kRounding);
+      EXPECT_NEAR(slow.value(lookahead->first_move(), 0.0, moves, cells), best, kSameMass);
     }
   }
   EXPECT_GT(decided, 40);
@@ -233,7 +233,7 @@ TEST(Lookahead, LeavesTheSeenMapAsItWasAlsoWhereItRunsOutOfUndo) {
     ASSERT_FALSE(slow.tied());
     EXPECT_GT(best, best_with_room + 0.001);  // there is more to undo than room for it
     ASSERT_GE(lookahead->first_move(), 0);
-    EXPECT_NEAR(slow.value(lookahead->first_move(), 0.0, moves, cells), best, kRounding);
+    EXPECT_NEAR(slow.value(lookahead->first_move(), 0.0, moves, cells), best, kSameMass);
   }
 }
 

@@ -13,22 +13,22 @@
 namespace ivo::planner {
 namespace {
 
-constexpr double kAgreement = 1e-9;
+constexpr double kSameScore = 1e-9;
 
 void expect_same(const Plan& plan, const test::NaivePlan& naive) {
-  EXPECT_NEAR(plan.score.expected_time_s, naive.score.expected_time_s, kAgreement);
-  EXPECT_NEAR(plan.score.expected_time_continuous_s, naive.score.expected_time_continuous_s, kAgreement);
-  EXPECT_NEAR(plan.score.expected_sub_prior_time_s, naive.score.expected_sub_prior_time_s, kAgreement);
-  EXPECT_NEAR(plan.score.unseen_mass, naive.score.unseen_mass, kAgreement);
-  EXPECT_NEAR(plan.score.horizon_s, naive.score.horizon_s, kAgreement);
+  EXPECT_NEAR(plan.score.expected_time_s, naive.score.expected_time_s, kSameScore);
+  EXPECT_NEAR(plan.score.expected_time_continuous_s, naive.score.expected_time_continuous_s, kSameScore);
+  EXPECT_NEAR(plan.score.expected_sub_prior_time_s, naive.score.expected_sub_prior_time_s, kSameScore);
+  EXPECT_NEAR(plan.score.unseen_mass, naive.score.unseen_mass, kSameScore);
+  EXPECT_NEAR(plan.score.horizon_s, naive.score.horizon_s, kSameScore);
   EXPECT_EQ(plan.score.complete, naive.score.complete);
   ASSERT_EQ(plan.paths.size(), naive.waypoints.size());
   for (std::size_t m = 0; m < naive.waypoints.size(); ++m) {
     SCOPED_TRACE("agent " + std::to_string(m));
     ASSERT_EQ(plan.paths[m].waypoints.size(), naive.waypoints[m].size());
     for (std::size_t i = 0; i < naive.waypoints[m].size(); ++i) {
-      EXPECT_NEAR(plan.paths[m].waypoints[i].x_m, naive.waypoints[m][i].x_m, kAgreement);
-      EXPECT_NEAR(plan.paths[m].waypoints[i].y_m, naive.waypoints[m][i].y_m, kAgreement);
+      EXPECT_NEAR(plan.paths[m].waypoints[i].x_m, naive.waypoints[m][i].x_m, kSameScore);
+      EXPECT_NEAR(plan.paths[m].waypoints[i].y_m, naive.waypoints[m][i].y_m, kSameScore);
     }
   }
 }

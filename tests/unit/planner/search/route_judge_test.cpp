@@ -159,7 +159,7 @@ Seconds change(const SearchProblem& problem, int agent, Route& route, std::mt199
   return changed_s;
 }
 
-double cost(const PlanScore& score) {
+double cost_of(const PlanScore& score) {
   return test::shared_planner().belief().has_sub_priors ? score.expected_sub_prior_time_s
                                                         : score.expected_time_continuous_s;
 }
@@ -204,7 +204,7 @@ TEST(RouteJudge, JudgesFromAStateItKeptAsItDoesFromTheStart) {
       if (anew.complete) {
         // On maps of a few sight radii a part is a large share of a plan, and with sub-priors so is a step.
         const bool sub_priors = test::shared_planner().belief().has_sub_priors;
-        const double exact_s = cost(Bench::get().exact_score(candidate, to_double(anew.end_s)));
+        const double exact_s = cost_of(Bench::get().exact_score(candidate, to_double(anew.end_s)));
         EXPECT_NEAR(to_double(anew.cost), exact_s, (sub_priors ? 0.2 : 0.08) * exact_s + 0.1);
       }
       late += changed_s > Seconds{} ? 1 : 0;
@@ -259,7 +259,7 @@ void expect_near_exact(test::M1& m1, double share) {
     ++complete;
     const PlanScore exact = Bench::get().exact_score(route, to_double(judgement.end_s));
     EXPECT_NEAR(exact.unseen_mass, m1.problem().colony.ant.max_unseen_mass, 0.01);
-    EXPECT_NEAR(to_double(judgement.cost) / cost(exact), 1.0, share);
+    EXPECT_NEAR(to_double(judgement.cost) / cost_of(exact), 1.0, share);
   }
   EXPECT_GT(complete, 8);
 }

@@ -18,7 +18,7 @@ SegmentPool& pool() {
 
 // Prepares searches drawn at random and opens the pool on them.
 template <class OnSearch>
-void on_random_searches(std::uint64_t seed, int count, OnSearch&& on_search) {
+void on_random_pools(std::uint64_t seed, int count, OnSearch&& on_search) {
   const auto opens = [](int, const SearchProblem& problem) {
     return !test::shared_planner().prepare(problem) && pool().open();
   };
@@ -81,7 +81,7 @@ std::vector<std::int32_t> fill(const Place& place) {
 
 TEST(SegmentPool, LosesNothingOverFiftyThousandSegmentsBegunMadeAndReleased) {
   int released_half_made = 0;
-  on_random_searches(21, 5, [&](const SearchProblem& problem, std::mt19937_64& random) {
+  on_random_pools(21, 5, [&](const SearchProblem& problem, std::mt19937_64& random) {
     Owners owners;
     std::vector<std::int32_t> kept;
     for (int i = 0; i < 10'000; ++i) {
@@ -95,8 +95,9 @@ TEST(SegmentPool, LosesNothingOverFiftyThousandSegmentsBegunMadeAndReleased) {
       }
       int work = 0;
       const auto agent = static_cast<int>(random() % problem.agents.size());
-      const std::int32_t id =
-          pool().begin(agent, node_or_anywhere(problem.map, random), node_or_anywhere(problem.map, random), work);
+      const Place to = node_or_anywhere(problem.map, random);
+      const Place from = node_or_anywhere(problem.map, random);
+      const std::int32_t id = pool().begin(agent, from, to, work);
       if (id < 0) {
         continue;
       }
@@ -126,7 +127,7 @@ TEST(SegmentPool, LosesNothingOverFiftyThousandSegmentsBegunMadeAndReleased) {
 TEST(SegmentPool, AcceptsOnlyWaysOnWhichTheAgentCanGo) {
   int accepted = 0;
   int refused = 0;
-  on_random_searches(22, 40, [&](const SearchProblem& problem, std::mt19937_64& random) {
+  const auto on_pool = [&](const SearchProblem& problem, std::mt19937_64& random) {
     const SegmentedMap& map = problem.map;
     for (int i = 0; i < 400; ++i) {
       const auto agent = static_cast<int>(random() % problem.agents.size());
@@ -149,14 +150,16 @@ TEST(SegmentPool, AcceptsOnlyWaysOnWhichTheAgentCanGo) {
       EXPECT_FALSE(touches(body.restricted, a, b));
       pool().release(id);
     }
-  });
+  };
+  on_random_pools(22, 40, on_pool);
+  on_random_pools(39, 40, on_pool);  // a node nearer to the border than the spot that it is rounded to
   EXPECT_GT(accepted, 1'000);
   EXPECT_GT(refused, 1'000);
 }
 
 TEST(SegmentPool, AcceptsEveryEdgeOfTheGraphForWhomItIsOpen) {
   int edges = 0;
-  on_random_searches(23, 10, [&](const SearchProblem& problem, std::mt19937_64&) {
+  on_random_pools(23, 10, [&](const SearchProblem& problem, std::mt19937_64&) {
     const Graph& graph = test::shared_planner().graph();
     for (Node n = 0; n < graph.nodes(); ++n) {
       for (Edge e = graph.first_edge(n); e < graph.end_edge(n); ++e) {
@@ -179,7 +182,7 @@ TEST(SegmentPool, AcceptsEveryEdgeOfTheGraphForWhomItIsOpen) {
 }
 
 TEST(SegmentPool, MakesTheSameSightInManyPartsAsInOne) {
-  on_random_searches(24, 10, [&](const SearchProblem& problem, std::mt19937_64& random) {
+  on_random_pools(24, 10, [&](const SearchProblem& problem, std::mt19937_64& random) {
     for (int i = 0; i < 40; ++i) {
       const auto agent = static_cast<int>(random() % problem.agents.size());
       const Place from = node_or_anywhere(problem.map, random);
@@ -214,7 +217,7 @@ TEST(SegmentPool, MakesTheSameSightInManyPartsAsInOne) {
 // A route is kept as waypoints, and a leg of it that was gone back is made anew the other way round.
 TEST(SegmentPool, AcceptsAWayInBothDirectionsOrInNeither) {
   int accepted = 0;
-  on_random_searches(25, 40, [&](const SearchProblem& problem, std::mt19937_64& random) {
+  on_random_pools(25, 40, [&](const SearchProblem& problem, std::mt19937_64& random) {
     for (int i = 0; i < 2'000; ++i) {
       const auto agent = static_cast<int>(random() % problem.agents.size());
       const Place from = node_or_anywhere(problem.map, random);

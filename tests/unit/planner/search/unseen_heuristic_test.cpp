@@ -21,7 +21,7 @@
 namespace ivo::planner {
 namespace {
 
-constexpr double kAgreement = kFixedPoint ? 12 * 0x1p-16 : 1e-9;  // six factors of 16 bits, rounded as they come
+constexpr double kSameWorth = kFixedPoint ? 12 * 0x1p-16 : 1e-9;  // six factors of 16 bits, rounded as they come
 
 // What each part of the way, from its first sight point to its last, shows of what is unseen.
 double slow_mass(const World& world, int agent, Node tail, Edge e, const SeenMap& seen) {
@@ -76,7 +76,7 @@ std::vector<Node> wander(const World& world, int moves, std::mt19937_64& random,
   return at;
 }
 
-struct Tally {
+struct Looks {
   int searches = 0;
   int of_several_agents = 0;
   int with_sub_priors = 0;
@@ -86,7 +86,7 @@ struct Tally {
 };
 
 void expect_the_slow_count(const World& world, int agent, Node here, const SeenMap& seen, std::mt19937_64& random,
-                           Tally& tally) {
+                           Looks& tally) {
   static const auto heuristic = std::make_unique<UnseenHeuristic>(test::shared_planner().world());
   std::vector<bool> wanted;
   std::vector<double> etas;
@@ -108,7 +108,7 @@ void expect_the_slow_count(const World& world, int agent, Node here, const SeenM
         const double expected = etas[i] > 0.0 ? std::pow(etas[i] / best, beta) : 0.0;
         const double actual =
             static_cast<double>(heuristic->visibility(e, beta)) / static_cast<double>(visibility_from(1.0));
-        ASSERT_NEAR(actual, expected, kAgreement) << "edge " << i << ", beta " << beta;
+        ASSERT_NEAR(actual, expected, kSameWorth) << "edge " << i << ", beta " << beta;
         ASSERT_EQ(actual > 0.0, expected > 0.0) << "edge " << i << ", beta " << beta;
       }
     }
@@ -120,7 +120,7 @@ void expect_the_slow_count(const World& world, int agent, Node here, const SeenM
 TEST(UnseenHeuristic, IsTheUnseenMassOfTheWaysPartsOverItsLength) {
   std::mt19937_64 random(91);
   const auto seen = std::make_unique<SeenMap>();
-  Tally tally;
+  Looks tally;
   for (int draw = 0; tally.searches < 60; ++draw) {
     ASSERT_LT(draw, 600);
     test::RandomSearch search(random);

@@ -9,7 +9,7 @@
 namespace ivo::planner {
 namespace {
 
-Cells& cells_of(const test::DrawnMap& map, double cell_m) {
+Cells& cells_under(const test::DrawnMap& map, double cell_m) {
   static Cells cells;
   EXPECT_FALSE(cells.build(map.view(), cell_m));
   return cells;
@@ -35,7 +35,7 @@ int expect_the_rules_disc(const Cells& cells, Point from, double radius_m) {
 TEST(SightDisc, HoldsTheCellsWithinTheRadiusWhereverItLies) {
   std::mt19937_64 random(11);
   for (const double cell_m : {0.25, 0.5, 0.1, 0.3}) {
-    const Cells& cells = cells_of(test::DrawnMap(6.0, 4.5, 0.1), cell_m);
+    const Cells& cells = cells_under(test::DrawnMap(6.0, 4.5, 0.1), cell_m);
     std::uniform_real_distribution<double> x(0.0, 6.0);
     std::uniform_real_distribution<double> y(0.0, 4.5);
     std::uniform_real_distribution<double> radius(0.0, 4.0);
@@ -52,7 +52,7 @@ TEST(SightDisc, HoldsTheCellsWithinTheRadiusWhereverItLies) {
 TEST(SightDisc, HoldsTheCellsOnTheCircle) {
   std::mt19937_64 random(12);
   for (const double cell_m : {0.25, 0.1, 0.3, 0.7}) {
-    const Cells& cells = cells_of(test::DrawnMap(7.0, 5.6, 0.1), cell_m);
+    const Cells& cells = cells_under(test::DrawnMap(7.0, 5.6, 0.1), cell_m);
     const auto below = [&](int count) { return static_cast<int>(random() % static_cast<std::uint64_t>(count)); };
     for (int i = 0; i < 500; ++i) {
       const Point centre = cells.centre(below(cells.columns()), below(cells.rows()));
@@ -68,7 +68,7 @@ TEST(SightDisc, HoldsTheCellsOnTheCircle) {
 }
 
 TEST(SightDisc, KeepsToTheRuleInCellsOfThreeTimesItsTolerance) {
-  const Cells& cells = cells_of(test::DrawnMap(0.01, 0.01, 0.001), 1e-4);  // 1e-9 m^2 is a disc of 3.2e-5 m
+  const Cells& cells = cells_under(test::DrawnMap(0.01, 0.01, 0.001), 1e-4);  // 1e-9 m^2 is a disc of 3.2e-5 m
   std::mt19937_64 random(13);
   std::uniform_real_distribution<double> place(0.0, 0.01);
   for (int i = 0; i < 100; ++i) {
@@ -78,7 +78,7 @@ TEST(SightDisc, KeepsToTheRuleInCellsOfThreeTimesItsTolerance) {
 }
 
 TEST(SightDisc, OfNoRadiusHoldsTheCellWhoseCentreItIs) {
-  const Cells& cells = cells_of(test::DrawnMap(4.0, 4.0, 0.5), 0.5);
+  const Cells& cells = cells_under(test::DrawnMap(4.0, 4.0, 0.5), 0.5);
   EXPECT_EQ(expect_the_rules_disc(cells, {1.25, 2.75}, 0.0), 1);
   EXPECT_EQ(expect_the_rules_disc(cells, {1.3, 2.75}, 0.0), 0);
 }
@@ -86,7 +86,7 @@ TEST(SightDisc, OfNoRadiusHoldsTheCellWhoseCentreItIs) {
 TEST(SightDisc, IsOpenOnlyWhereNothingNearHides) {
   test::DrawnMap map(20.0, 20.0, 0.5);
   map.put(SemanticClass::kWater, 2.0, 2.0, 4.0, 4.0).put(SemanticClass::kBuilding, 15.0, 15.0, 16.0, 16.0);
-  const Cells& cells = cells_of(map, 0.5);
+  const Cells& cells = cells_under(map, 0.5);
   EXPECT_TRUE(SightDisc(cells, {3.0, 3.0}, 2.5).open());  // water hides nothing
   EXPECT_FALSE(SightDisc(cells, {14.0, 14.0}, 2.5).open());
   EXPECT_FALSE(SightDisc(cells, {17.5, 15.5}, 2.5).open());

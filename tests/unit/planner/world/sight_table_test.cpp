@@ -27,7 +27,7 @@ Scene& scene() {
   return scene;
 }
 
-GraphAgents agents_at(std::initializer_list<Point> starts) {
+GraphAgents agents_from(std::initializer_list<Point> starts) {
   GraphAgents agents;
   for (const Point start : starts) {
     GraphAgent agent;
@@ -82,7 +82,7 @@ TEST(SightTable, AgreesWithALookFromEveryPointOfEveryEdgeBothWays) {
   const int agents = std::min(3, limits::kAgents);
   SightRadii radii_m{1.3, 2.6};
   radii_m[index(agents - 1)] = agents > 2 ? 1.3 : 2.6;
-  GraphAgents bodies = agents_at({{1.0, 1.0}, {8.0, 6.0}});
+  GraphAgents bodies = agents_from({{1.0, 1.0}, {8.0, 6.0}});
   if (agents > 2) {
     GraphAgent third;
     third.start = {1.0, 4.0};
@@ -132,7 +132,7 @@ TEST(SightTable, AgreesWithALookFromEveryPointOfEveryEdgeBothWays) {
 }
 
 TEST(SightTable, GivesTheSwathsInTheOrderOfTheWayInBothDirections) {
-  ASSERT_FALSE(build(DrawnMap(30.0, 3.0, 0.5), 0.25, 10.0, agents_at({{1.5, 1.5}}), {1.0}));
+  ASSERT_FALSE(build(DrawnMap(30.0, 3.0, 0.5), 0.25, 10.0, agents_from({{1.5, 1.5}}), {1.0}));
   const Scene& s = scene();
   int swaths = 0;
   for (Edge e = 0; e < s.graph.edges(); ++e) {
@@ -150,7 +150,7 @@ TEST(SightTable, GivesTheSwathsInTheOrderOfTheWayInBothDirections) {
 TEST(SightTable, CountsACellAsObservableOnlyByAgentsThatCanGetToASightOfIt) {
   DrawnMap map(14.0, 5.0, 0.5);
   map.put(kWall, 7.0, 0.0, 7.5, 5.0);
-  ASSERT_FALSE(build(map, 0.5, 2.0, agents_at({{1.0, 1.0}, {13.0, 1.0}}), {20.0, 20.0}));
+  ASSERT_FALSE(build(map, 0.5, 2.0, agents_from({{1.0, 1.0}, {13.0, 1.0}}), {20.0, 20.0}));
   const Scene& s = scene();
   for (Cell c = 0; c < s.cells.count(); ++c) {
     const double x = s.cells.centre(c).x_m;
@@ -161,18 +161,18 @@ TEST(SightTable, CountsACellAsObservableOnlyByAgentsThatCanGetToASightOfIt) {
 }
 
 TEST(SightTable, IsBuiltAnewForAnotherMission) {
-  ASSERT_FALSE(build(DrawnMap(9.0, 9.0, 0.5), 0.5, 3.0, agents_at({{1.5, 1.5}, {7.5, 7.5}}), {1.0, 3.0}));
+  ASSERT_FALSE(build(DrawnMap(9.0, 9.0, 0.5), 0.5, 3.0, agents_from({{1.5, 1.5}, {7.5, 7.5}}), {1.0, 3.0}));
   const int before = scene().sight.words_used();
-  ASSERT_FALSE(build(DrawnMap(6.0, 3.0, 0.5), 0.5, 3.0, agents_at({{1.5, 1.5}}), {1.0}));
+  ASSERT_FALSE(build(DrawnMap(6.0, 3.0, 0.5), 0.5, 3.0, agents_from({{1.5, 1.5}}), {1.0}));
   EXPECT_LT(scene().sight.words_used(), before);
   EXPECT_EQ(scene().graph.edges(), 2);
-  ASSERT_FALSE(build(DrawnMap(9.0, 9.0, 0.5), 0.5, 3.0, agents_at({{1.5, 1.5}, {7.5, 7.5}}), {1.0, 3.0}));
+  ASSERT_FALSE(build(DrawnMap(9.0, 9.0, 0.5), 0.5, 3.0, agents_from({{1.5, 1.5}, {7.5, 7.5}}), {1.0, 3.0}));
   EXPECT_EQ(scene().sight.words_used(), before);
 }
 
 TEST(SightTable, KeepsOneRecordForAgentsOfOneRadius) {
   const DrawnMap map(9.0, 9.0, 0.5);
-  const GraphAgents two = agents_at({{1.5, 1.5}, {7.5, 7.5}});
+  const GraphAgents two = agents_from({{1.5, 1.5}, {7.5, 7.5}});
   ASSERT_FALSE(build(map, 0.5, 3.0, two, {2.0, 2.0}));
   const int alike = scene().sight.words_used();
   EXPECT_EQ(scene().sight.layer(0), scene().sight.layer(1));
@@ -183,7 +183,7 @@ TEST(SightTable, KeepsOneRecordForAgentsOfOneRadius) {
 }
 
 TEST(SightTable, RefusesAnEdgeWithMoreSightPointsThanAnEventCanNumber) {
-  const Refusal refusal = build(DrawnMap(420.0, 2.0, 0.5), 0.25, 210.0, agents_at({{105.0, 1.0}}), {0.3});
+  const Refusal refusal = build(DrawnMap(420.0, 2.0, 0.5), 0.25, 210.0, agents_from({{105.0, 1.0}}), {0.3});
   EXPECT_EQ(refusal.code, RefusalCode::kEdgeTooLong);
   EXPECT_GT(refusal.value, SightTable::kMaxPoint);
   EXPECT_EQ(refusal.limit, SightTable::kMaxPoint);
@@ -197,7 +197,7 @@ TEST(SightTable, RefusesMoreRowsThanItsCapacityAndSaysHowManyThereWouldBe) {
   const bool large = limits::kNodes > 1000;
   const double side_m = large ? 40.0 : 15.0;
   const Refusal refusal =
-      build(DrawnMap(side_m, side_m, 0.5), large ? 0.25 : 0.1, 1.0, agents_at({{0.5, 0.5}}), {100.0});
+      build(DrawnMap(side_m, side_m, 0.5), large ? 0.25 : 0.1, 1.0, agents_from({{0.5, 0.5}}), {100.0});
   EXPECT_EQ(refusal.code, RefusalCode::kSightTableFull);
   const Graph& graph = scene().graph;
   EXPECT_EQ(refusal.value, (graph.nodes() + graph.edges() / 2) * scene().cells.rows() * 3.0);
@@ -206,8 +206,8 @@ TEST(SightTable, RefusesMoreRowsThanItsCapacityAndSaysHowManyThereWouldBe) {
 }
 
 TEST(SightTable, IsBuiltAgainAfterARefusal) {
-  ASSERT_TRUE(build(DrawnMap(420.0, 2.0, 0.5), 0.25, 210.0, agents_at({{105.0, 1.0}}), {0.3}));
-  ASSERT_FALSE(build(DrawnMap(3.0, 3.0, 0.5), 0.5, 3.0, agents_at({{1.5, 1.5}}), {1.0}));
+  ASSERT_TRUE(build(DrawnMap(420.0, 2.0, 0.5), 0.25, 210.0, agents_from({{105.0, 1.0}}), {0.3}));
+  ASSERT_FALSE(build(DrawnMap(3.0, 3.0, 0.5), 0.5, 3.0, agents_from({{1.5, 1.5}}), {1.0}));
   CellSet seen;
   look({1.5, 1.5}, 1.0, seen);
   EXPECT_EQ(cells_of(scene().sight.from_node(0, 0)), seen);

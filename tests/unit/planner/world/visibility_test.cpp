@@ -58,7 +58,7 @@ std::vector<Step> slow_walk(int x, int y, int target_column, int target_row) {
   return between;
 }
 
-Cells& cells_of(const DrawnMap& map, double cell_m) {
+Cells& cells_drawn(const DrawnMap& map, double cell_m) {
   static Cells cells;
   EXPECT_EQ(cells.build(map.view(), cell_m).code, RefusalCode::kNone);
   return cells;
@@ -81,7 +81,7 @@ TEST(LineOfSight, AgreesWithASlowWalkInWholeNumbers) {
   for (const double cell_m : {1.0, 0.25}) {
     for (int i = 0; i < 40; ++i) {
       const DrawnMap map = random_map(random, cell_m, 10 + i);
-      const Cells& cells = cells_of(map, cell_m);
+      const Cells& cells = cells_drawn(map, cell_m);
       for (int k = 0; k < 1000; ++k) {
         const int coarse =
             k % 2 == 0 ? 1 : kParts / 2;  // every other position at a corner, a side's middle or a centre
@@ -109,7 +109,7 @@ TEST(LineOfSight, IsLostExactlyWhenTheLinePassesThroughAnOccluder) {
   std::mt19937_64 random(43);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   for (int i = 0; i < 20; ++i) {
-    const Cells& cells = cells_of(random_map(random, 0.5, 30), 0.5);
+    const Cells& cells = cells_drawn(random_map(random, 0.5, 30), 0.5);
     for (int k = 0; k < 300; ++k) {
       const Point from{10.0 * unit(random), 7.5 * unit(random)};
       const Cell target = static_cast<Cell>(random() % 300);
@@ -147,31 +147,31 @@ TEST(LineOfSight, StepsInYFirstAtAnExactCorner) {
   const Point high{1.5, 1.5};
   DrawnMap upper_left(2.0, 2.0, 1.0);
   upper_left.put(kWall, 0.0, 1.0, 1.0, 2.0);
-  EXPECT_FALSE(line_of_sight(cells_of(upper_left, 1.0), low, 3));
-  EXPECT_TRUE(line_of_sight(cells_of(upper_left, 1.0), high, 0));
+  EXPECT_FALSE(line_of_sight(cells_drawn(upper_left, 1.0), low, 3));
+  EXPECT_TRUE(line_of_sight(cells_drawn(upper_left, 1.0), high, 0));
   DrawnMap lower_right(2.0, 2.0, 1.0);
   lower_right.put(kWall, 1.0, 0.0, 2.0, 1.0);
-  EXPECT_TRUE(line_of_sight(cells_of(lower_right, 1.0), low, 3));
-  EXPECT_FALSE(line_of_sight(cells_of(lower_right, 1.0), high, 0));
+  EXPECT_TRUE(line_of_sight(cells_drawn(lower_right, 1.0), low, 3));
+  EXPECT_FALSE(line_of_sight(cells_drawn(lower_right, 1.0), high, 0));
 }
 
 TEST(LineOfSight, DoesNotMindTheCellsAtItsEnds) {
   DrawnMap map(5.0, 1.0, 1.0);
   map.put(kWall, 0.0, 0.0, 1.0, 1.0).put(kWall, 4.0, 0.0, 5.0, 1.0);
-  EXPECT_TRUE(line_of_sight(cells_of(map, 1.0), {0.5, 0.5}, 4));
-  EXPECT_TRUE(line_of_sight(cells_of(map, 1.0), {0.5, 0.5}, 0));
+  EXPECT_TRUE(line_of_sight(cells_drawn(map, 1.0), {0.5, 0.5}, 4));
+  EXPECT_TRUE(line_of_sight(cells_drawn(map, 1.0), {0.5, 0.5}, 0));
   map.put(kWall, 2.0, 0.0, 3.0, 1.0);
-  EXPECT_FALSE(line_of_sight(cells_of(map, 1.0), {0.5, 0.5}, 4));
+  EXPECT_FALSE(line_of_sight(cells_drawn(map, 1.0), {0.5, 0.5}, 4));
 }
 
 TEST(LineOfSight, StartsFromTheMapsFarBorderToo) {
-  const Cells& cells = cells_of(DrawnMap(4.0, 3.0, 1.0), 1.0);
+  const Cells& cells = cells_drawn(DrawnMap(4.0, 3.0, 1.0), 1.0);
   EXPECT_TRUE(line_of_sight(cells, {4.0, 3.0}, 0));
   EXPECT_TRUE(line_of_sight(cells, {4.0, 0.0}, cells.at(0, 2)));
 }
 
 TEST(WithinRadius, KeepsCellsOnTheCircleWhateverTheRounding) {
-  const Cells& cells = cells_of(DrawnMap(10.0, 10.0, 0.25), 0.25);
+  const Cells& cells = cells_drawn(DrawnMap(10.0, 10.0, 0.25), 0.25);
   EXPECT_TRUE(within_radius(cells, {0.125, 0.125}, cells.at(10, 0), 2.5));
   EXPECT_TRUE(within_radius(cells, {0.125, 0.125}, cells.at(6, 8), 2.5));  // 1.5 by 2
   EXPECT_FALSE(within_radius(cells, {0.125, 0.125}, cells.at(10, 0), 2.4999));
@@ -182,7 +182,7 @@ TEST(ForEachSeen, FindsWhatALookAtEveryCellFindsRowByRow) {
   std::mt19937_64 random(47);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   for (int i = 0; i < 60; ++i) {
-    const Cells& cells = cells_of(random_map(random, 0.5, i % 2 == 0 ? 0 : 25), 0.5);
+    const Cells& cells = cells_drawn(random_map(random, 0.5, i % 2 == 0 ? 0 : 25), 0.5);
     for (int k = 0; k < 20; ++k) {
       const Point from{10.0 * unit(random), 7.5 * unit(random)};
       const double radius_m = 0.1 + 6.0 * unit(random);

@@ -20,7 +20,7 @@
 namespace ivo::firmware::rivals {
 namespace {
 
-constexpr Effort tries(int count) { return {.seconds = 60.0, .tries = count}; }
+constexpr Effort tries(int count) { return {.seconds = 1e9, .tries = count}; }
 
 class Scene {
  public:

@@ -305,12 +305,12 @@ TEST(WheelTurner, EndsAndSaysThatPowerIsNotKnownToBeOffWhenTheBusIsLost) {
 
 TEST(WheelTurner, EndsWhenItsOwnCyclesAreLateUnderPower) {
   ReadyRig rig;
-  rig.cycle({}, rates::kLatestPeriods);
+  rig.cycle({}, LoopParameters{}.latch_at);
   EXPECT_EQ(rig.status().end, TurnEnd::kNone) << "power is off";
   rig.hold(2s);
-  rig.cycle({.hold = true}, rates::kLatestPeriods - 1);
+  rig.cycle({.hold = true}, LoopParameters{}.latch_at - 1);
   EXPECT_EQ(rig.status().end, TurnEnd::kNone);
-  rig.cycle({.hold = true}, rates::kLatestPeriods);
+  rig.cycle({.hold = true}, LoopParameters{}.latch_at);
   EXPECT_EQ(rig.status().fault.reason, DriveFaultReason::kCycleLate);
   EXPECT_TRUE(rig.run_until(TurnPhase::kEnded));
   EXPECT_FALSE(rig.any_power());
