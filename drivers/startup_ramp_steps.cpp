@@ -10,8 +10,6 @@
 namespace ivo::drivers {
 namespace {
 
-void add(StartupSteps& steps, const StartupStep& step) noexcept { IVO_CONTRACT(steps.push_back(step)); }
-
 /// `mps2` at a wheel's rim, in units of 6083h to 6085h; at least 1, or the wheel would never stop.
 std::uint32_t ramp_units(const Robot& robot, const DriveParameters& drive, double mps2) noexcept {
   constexpr double kHighest = 0x7FFF'FFFF;  // some drives hold it as signed

@@ -22,8 +22,6 @@ constexpr std::uint32_t microseconds(Duration d) noexcept {
   return static_cast<std::uint32_t>(std::chrono::duration_cast<std::chrono::microseconds>(d).count());
 }
 
-void add(StartupSteps& steps, const StartupStep& step) noexcept { IVO_CONTRACT(steps.push_back(step)); }
-
 void add_device_type(StartupSteps& steps) noexcept {
   add(steps, {.name = "device type 1000h",
               .action = StepAction::kVerify,

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "config/base/contract.hpp"
 #include "config/base/static_vector.hpp"
 #include "config/robot.hpp"
 #include "drivers/canopen/object_address.hpp"
@@ -46,6 +47,8 @@ struct StartupStep {
 };
 
 using StartupSteps = StaticVector<StartupStep, 112>;
+
+inline void add(StartupSteps& steps, const StartupStep& step) noexcept { IVO_CONTRACT(steps.push_back(step)); }
 
 /// First the drive's identity, then target 0 and voltage off: a drive that a dead master left turning stops here,
 /// whatever becomes of the rest. Then SYNC, who watches whom, what the drive does by itself when something fails, its

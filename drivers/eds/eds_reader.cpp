@@ -13,8 +13,6 @@
 namespace ivo::drivers {
 namespace {
 
-using Kind = EdsSection::Kind;
-
 constexpr std::uint8_t kMostSubs = 0xFE;
 
 }  // namespace
@@ -80,7 +78,7 @@ class EdsReader {
     fields_.clear();
     announced_.reset();
     listed_before_ = structure_.listed();
-    if (section_.kind == Kind::kValueTable) {
+    if (section_.kind == SectionKind::kValueTable) {
       fail(EdsProblem::kCompactValues, line.number, ShortString<40>(line.name));
     }
     std::uint32_t& first = single_lines_[static_cast<std::size_t>(section_.kind)];
@@ -92,26 +90,26 @@ class EdsReader {
 
   void take(const EdsLine& line) noexcept {
     switch (section_.kind) {
-      case Kind::kNone:
+      case SectionKind::kNone:
         fail_here(EdsProblem::kKeyOutsideSection, line);
         break;
-      case Kind::kDummyUsage:
+      case SectionKind::kDummyUsage:
         take_dummy(line);
         break;
-      case Kind::kMandatoryObjects:
-      case Kind::kOptionalObjects:
-      case Kind::kManufacturerObjects:
+      case SectionKind::kMandatoryObjects:
+      case SectionKind::kOptionalObjects:
+      case SectionKind::kManufacturerObjects:
         take_listed(line);
         break;
-      case Kind::kDeviceInfo:
-      case Kind::kObject:
-      case Kind::kSub:
+      case SectionKind::kDeviceInfo:
+      case SectionKind::kObject:
+      case SectionKind::kSub:
         if (const std::uint32_t first = fields_.take(line); first != 0) {
           fail_here(EdsProblem::kDuplicateKey, line, first);
         }
         break;
-      case Kind::kForeign:
-      case Kind::kValueTable:
+      case SectionKind::kForeign:
+      case SectionKind::kValueTable:
         break;
     }
   }
@@ -166,11 +164,11 @@ class EdsReader {
         fail(EdsProblem::kWrongCount, section_line_, ShortString<40>(section_name_), count);
         error_->key = ShortString<40>("SupportedObjects");
       }
-    } else if (section_.kind == Kind::kDeviceInfo) {
+    } else if (section_.kind == SectionKind::kDeviceInfo) {
       end_device();
-    } else if (section_.kind == Kind::kObject) {
+    } else if (section_.kind == SectionKind::kObject) {
       end_object();
-    } else if (section_.kind == Kind::kSub) {
+    } else if (section_.kind == SectionKind::kSub) {
       EdsEntryReader reader(fields_, section_line_);
       add(reader, reader.object_type() == EdsObjectType::kDomain);
     }
@@ -285,7 +283,7 @@ class EdsReader {
   EdsSection section_;
   std::string_view section_name_;
   std::uint32_t section_line_ = 0;
-  std::array<std::uint32_t, static_cast<std::size_t>(Kind::kNone) + 1> single_lines_{};
+  std::array<std::uint32_t, static_cast<std::size_t>(SectionKind::kNone) + 1> single_lines_{};
   EdsFields fields_;
   std::optional<std::uint64_t> announced_;  // SupportedObjects
   std::size_t listed_before_ = 0;

@@ -9,17 +9,15 @@
 namespace ivo::drivers {
 namespace {
 
-using Kind = EdsSection::Kind;
-
 struct Named {
   std::string_view name;
-  Kind kind;
+  SectionKind kind;
 };
-constexpr std::array<Named, 5> kSections = {{{"DeviceInfo", Kind::kDeviceInfo},
-                                             {"DummyUsage", Kind::kDummyUsage},
-                                             {"MandatoryObjects", Kind::kMandatoryObjects},
-                                             {"OptionalObjects", Kind::kOptionalObjects},
-                                             {"ManufacturerObjects", Kind::kManufacturerObjects}}};
+constexpr std::array<Named, 5> kSections = {{{"DeviceInfo", SectionKind::kDeviceInfo},
+                                             {"DummyUsage", SectionKind::kDummyUsage},
+                                             {"MandatoryObjects", SectionKind::kMandatoryObjects},
+                                             {"OptionalObjects", SectionKind::kOptionalObjects},
+                                             {"ManufacturerObjects", SectionKind::kManufacturerObjects}}};
 
 constexpr std::array<std::string_view, static_cast<std::size_t>(EdsKey::kUnknown)> kKeys = {
     "ParameterName", "ObjectType",  "DataType",      "AccessType",    "DefaultValue",  "ParameterValue",
@@ -44,21 +42,21 @@ EdsSection eds_section(std::string_view name) noexcept {
   constexpr std::size_t kIndexDigits = 4;
   const std::optional<std::uint32_t> index = hexadecimal(name.substr(0, std::min(kIndexDigits, name.size())));
   if (name.size() < kIndexDigits || !index.has_value()) {
-    return {Kind::kForeign, {}};
+    return {SectionKind::kForeign, {}};
   }
   const ObjectAddress address{static_cast<std::uint16_t>(*index), 0};
   const std::string_view rest = name.substr(kIndexDigits);
   if (rest.empty()) {
-    return {Kind::kObject, address};
+    return {SectionKind::kObject, address};
   }
   constexpr std::string_view kSub = "sub";
   if (starts_with_word(rest, kSub)) {
     const std::optional<std::uint32_t> sub = hexadecimal(rest.substr(kSub.size()));
     if (sub.has_value() && *sub <= 0xFF && rest.size() <= kSub.size() + 2) {
-      return {Kind::kSub, {address.index, static_cast<std::uint8_t>(*sub)}};
+      return {SectionKind::kSub, {address.index, static_cast<std::uint8_t>(*sub)}};
     }
   }
-  return {same_word(rest, "Value") ? Kind::kValueTable : Kind::kForeign, address};
+  return {same_word(rest, "Value") ? SectionKind::kValueTable : SectionKind::kForeign, address};
 }
 
 ShortString<40> section_name(ObjectAddress address, bool sub) noexcept {

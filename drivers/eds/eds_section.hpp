@@ -38,6 +38,8 @@ struct EdsSection {
   }
 };
 
+using SectionKind = EdsSection::Kind;
+
 [[nodiscard]] EdsSection eds_section(std::string_view name) noexcept;
 /// As an EDS names it: "1018sub1", or "1018" of the object itself.
 [[nodiscard]] ShortString<40> section_name(ObjectAddress address, bool sub) noexcept;

@@ -16,7 +16,7 @@ constexpr std::uint8_t kCobIdSub = 1;
 constexpr std::uint8_t kTypeSub = 2;
 constexpr std::uint8_t kInhibitSub = 3;
 constexpr std::uint8_t kTimerSub = 5;
-constexpr std::uint32_t kIdBits = 0x3FFF'FFFF;
+constexpr std::uint32_t kIdAndFrameBits = 0x3FFF'FFFF;
 constexpr std::uint32_t kExtendedFrame = 0x2000'0000;
 constexpr std::uint32_t kPdoBits = 64;
 
@@ -36,7 +36,7 @@ bool restricted(std::uint32_t id) noexcept {
 std::optional<SdoAbort> cob_id_refusal(std::uint32_t before, std::uint32_t after) noexcept {
   const bool was_valid = (before & cob_id::kPdoInvalid) == 0;
   const bool becomes_valid = (after & cob_id::kPdoInvalid) == 0;
-  const bool another = ((before ^ after) & kIdBits) != 0;
+  const bool another = ((before ^ after) & kIdAndFrameBits) != 0;
   const bool wrong = (after & kExtendedFrame) != 0 || (becomes_valid && restricted(after & 0x7FF));
   return wrong || (was_valid && becomes_valid && another) ? std::optional(SdoAbort::kValueRange) : std::nullopt;
 }

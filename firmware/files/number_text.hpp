@@ -6,6 +6,8 @@
 #include <cmath>
 #include <string>
 
+#include "config/base/geometry.hpp"
+
 namespace ivo::firmware {
 
 [[nodiscard]] inline std::string shortest(double value) {
@@ -16,5 +18,8 @@ namespace ivo::firmware {
   const auto [end, status] = std::to_chars(text, text + sizeof text, value, format);
   return {text, end};
 }
+
+/// "(1.5, 2)"
+[[nodiscard]] inline std::string shortest(Point p) { return "(" + shortest(p.x_m) + ", " + shortest(p.y_m) + ")"; }
 
 }  // namespace ivo::firmware

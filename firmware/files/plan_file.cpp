@@ -9,7 +9,7 @@
 namespace ivo::firmware {
 namespace {
 
-constexpr int kFormat = 2;
+constexpr int kPlanFormat = 2;
 constexpr const char* kWhat = "a plan";
 
 ScoreDocument read_score(JsonReading& reading, const Json& json) {
@@ -62,7 +62,7 @@ PlanDocument read_document(JsonReading& reading, const Json& json) {
     return plan;
   }
   const std::uint64_t format = reading.count(json, "", "format", std::numeric_limits<std::uint64_t>::max());
-  if (reading.ok() && format != kFormat) {
+  if (reading.ok() && format != kPlanFormat) {
     reading.fault("format", std::to_string(format) + " is another version of this file's form; expected 2");
   }
   plan.mission = reading.text(json, "", "mission");
@@ -119,7 +119,7 @@ std::string plan_json(const PlanDocument& plan) {
                                {"duration_s", agent.duration_s},
                                {"waypoints_m", std::move(waypoints)}});
   }
-  return json_text({{"format", kFormat},
+  return json_text({{"format", kPlanFormat},
                     {"mission", plan.mission},
                     {"map", plan.map},
                     {"seed", plan.seed},

@@ -8,7 +8,7 @@
 namespace ivo::firmware {
 namespace {
 
-constexpr int kFormat = 1;
+constexpr int kReportFormat = 1;
 constexpr std::array<const char*, 5> kEnds = {"found", "paths_ended", "stopped", "fault", "no_consent"};
 
 }  // namespace
@@ -23,7 +23,7 @@ std::string report_json(const ReportDocument& report) {
                                {"mean_speed_mps", agent.driven ? Json(agent.driven->mean_speed_mps) : Json()},
                                {"final_position_m", agent.driven ? Json(agent.driven->final_position) : Json()}});
   }
-  return json_text({{"format", kFormat},
+  return json_text({{"format", kReportFormat},
                     {"mission", report.mission},
                     {"seed", report.seed},
                     {"end", kEnds[static_cast<std::size_t>(report.end)]},

@@ -23,11 +23,10 @@ namespace {
 int line_of(const toml::source_region& source) { return std::max(1, static_cast<int>(source.begin.line)); }
 
 TomlNode converted(const toml::node& from) {
-  using Kind = TomlNode::Kind;
   TomlNode node;
   node.line = line_of(from.source());
   if (const auto* table = from.as_table()) {
-    node.kind = Kind::kTable;
+    node.kind = TomlNode::Kind::kTable;
     for (const auto& [key, value] : *table) {
       TomlNode child = converted(value);
       child.key = std::string(key.str());
@@ -40,25 +39,25 @@ TomlNode converted(const toml::node& from) {
     std::stable_sort(node.children.begin(), node.children.end(),
                      [](const TomlNode& a, const TomlNode& b) { return a.line < b.line; });
   } else if (const auto* array = from.as_array()) {
-    node.kind = Kind::kArray;
+    node.kind = TomlNode::Kind::kArray;
     for (const auto& value : *array) {
       node.children.push_back(converted(value));
     }
   } else if (const auto* text = from.as_string()) {
-    node.kind = Kind::kText;
+    node.kind = TomlNode::Kind::kText;
     node.text = text->get();
   } else if (const auto* integer = from.as_integer()) {
-    node.kind = Kind::kInteger;
+    node.kind = TomlNode::Kind::kInteger;
     node.integer = integer->get();
     node.real = static_cast<double>(node.integer);
   } else if (const auto* real = from.as_floating_point()) {
-    node.kind = Kind::kReal;
+    node.kind = TomlNode::Kind::kReal;
     node.real = real->get();
   } else if (const auto* flag = from.as_boolean()) {
-    node.kind = Kind::kFlag;
+    node.kind = TomlNode::Kind::kFlag;
     node.flag = flag->get();
   } else {
-    node.kind = Kind::kDate;
+    node.kind = TomlNode::Kind::kDate;
   }
   return node;
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "firmware/motion/finite.hpp"
+
 namespace ivo::firmware {
 namespace {
 
@@ -11,14 +13,6 @@ constexpr double kGain_per_s = 1.5;    // of the return to the path and to the h
 constexpr double kAcrossShare = 0.5;   // of the largest speed, for the return to the path
 constexpr double kWaitError_m = 0.10;  // from here on the robot does not go on along the path
 constexpr double kSlow_mps = 0.10;     // stops within a centimetre at the default deceleration
-
-bool finite(const Pose& p) noexcept {
-  return std::isfinite(p.x_m) && std::isfinite(p.y_m) && std::isfinite(p.heading_rad);
-}
-
-bool finite(const Twist& t) noexcept {
-  return std::isfinite(t.vx_mps) && std::isfinite(t.vy_mps) && std::isfinite(t.wz_radps);
-}
 
 Vector2 turned(const Vector2& v, double cosine, double sine) noexcept {
   return {cosine * v.x - sine * v.y, sine * v.x + cosine * v.y};

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "firmware/motion/arc.hpp"
+#include "firmware/motion/finite.hpp"
 
 namespace ivo::firmware {
 namespace {
@@ -16,14 +17,6 @@ constexpr std::array<std::string_view, kPoseRefusals> kNames{
 };
 
 double wrapped(double angle_rad) noexcept { return std::remainder(angle_rad, 2.0 * std::numbers::pi); }
-
-bool finite(const Pose& pose) noexcept {
-  return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.heading_rad);
-}
-
-bool finite(const Twist& twist) noexcept {
-  return std::isfinite(twist.vx_mps) && std::isfinite(twist.vy_mps) && std::isfinite(twist.wz_radps);
-}
 
 // What a matrix that was computed as symmetric may be off by.
 constexpr double kRounding = 1e-9;

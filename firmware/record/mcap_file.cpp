@@ -13,7 +13,7 @@ using mcap::Op;
 using mcap::put;
 using mcap::record;
 
-constexpr std::string_view kMagic = "\x89MCAP0\r\n";
+constexpr std::string_view kMcapMagic = "\x89MCAP0\r\n";
 constexpr std::uint32_t kNoChecksum = 0;
 // A chunk is done at the earlier of these.
 constexpr std::size_t kChunkBytes = 262'144;
@@ -23,7 +23,7 @@ std::string header() {
   std::string content;
   put(content, std::string_view());  // no profile
   put(content, std::string_view("ivo"));
-  return std::string(kMagic) + record(Op::kHeader, content);
+  return std::string(kMcapMagic) + record(Op::kHeader, content);
 }
 
 }  // namespace
@@ -134,7 +134,7 @@ Result<void> McapFile::close(std::uint64_t lost_before) {
   put(footer, summary);
   put(footer, file_.bytes() + tail.size());
   put(footer, kNoChecksum);
-  file_.append(tail + offsets + record(Op::kFooter, footer) + std::string(kMagic), 0);
+  file_.append(tail + offsets + record(Op::kFooter, footer) + std::string(kMcapMagic), 0);
   return file_.close(lost_before);
 }
 

@@ -17,7 +17,7 @@
 namespace ivo::firmware {
 namespace {
 
-constexpr std::string_view kMagic = "IVOstate";
+constexpr std::string_view kStateMagic = "IVOstate";
 constexpr std::size_t kUntilSum = 12;  // magic and sum, which the sum does not cover
 
 Error failure(const std::string& path, const char* what) {
@@ -33,7 +33,7 @@ std::string slot_bytes(std::uint32_t version, std::uint64_t sequence, std::strin
   summed.u32(static_cast<std::uint32_t>(state.size()));
   ByteWriter slot;
   slot.u32(crc32(state, crc32(summed.bytes())));
-  std::string bytes(kMagic);
+  std::string bytes(kStateMagic);
   bytes += slot.bytes();
   bytes += summed.bytes();
   bytes += state;
@@ -51,10 +51,10 @@ struct Slot {
 Slot parse(std::string_view bytes) {
   Slot slot;
   slot.there = !bytes.empty();
-  if (bytes.size() < StateFile::kHeader || !bytes.starts_with(kMagic)) {
+  if (bytes.size() < StateFile::kHeader || !bytes.starts_with(kStateMagic)) {
     return slot;
   }
-  ByteReader header(bytes.substr(kMagic.size(), StateFile::kHeader - kMagic.size()));
+  ByteReader header(bytes.substr(kStateMagic.size(), StateFile::kHeader - kStateMagic.size()));
   const std::uint32_t sum = header.u32();
   slot.version = header.u32();
   slot.sequence = header.u64();

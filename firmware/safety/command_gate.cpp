@@ -6,7 +6,7 @@
 namespace ivo::firmware {
 namespace {
 
-constexpr std::array<std::string_view, kRefusals> kNames{
+constexpr std::array<std::string_view, kRefusals> kRefusalNames{
     "none",     "mode forbids motion", "drives not enabled", "feedback stale", "pose not finite", "command not finite",
     "too fast", "turns too fast",
 };
@@ -21,7 +21,7 @@ bool within(double value, double limit) noexcept { return value <= limit * kRoun
 
 }  // namespace
 
-std::string_view name_of(Refusal refusal) noexcept { return kNames[static_cast<std::size_t>(refusal)]; }
+std::string_view name_of(Refusal refusal) noexcept { return kRefusalNames[static_cast<std::size_t>(refusal)]; }
 
 CommandGate::Verdict CommandGate::judge(const Input& input) noexcept {
   const Refusal refusal = reason_against(input);

@@ -37,7 +37,7 @@ constexpr std::uint8_t kWriteTwoBytes = 0x2B;  // expedited, size given
 constexpr std::uint16_t kControlword = 0x6040;     // CiA 402-2
 constexpr std::uint16_t kTargetVelocity = 0x60FF;  // CiA 402-2
 
-constexpr std::array<std::string_view, kFrameRefusals> kNames{
+constexpr std::array<std::string_view, kFrameRefusals> kFrameRefusalNames{
     "none",
     "COB-ID not on the list",
     "wrong size",
@@ -94,7 +94,9 @@ FrameRefusal unless(bool right_size, FrameRefusal verdict) noexcept {
 
 }  // namespace
 
-std::string_view name_of(FrameRefusal refusal) noexcept { return kNames[static_cast<std::size_t>(refusal)]; }
+std::string_view name_of(FrameRefusal refusal) noexcept {
+  return kFrameRefusalNames[static_cast<std::size_t>(refusal)];
+}
 
 FrameRules::FrameRules(const Robot& robot) noexcept
     : master_node_id_(robot.master_node_id), shared_(robot.pdo_layout == PdoLayout::kShared) {

@@ -85,7 +85,7 @@ void show(const Status& status) {
 }
 
 // In the order of ConsoleVerb.
-constexpr std::array kKinds{Kind::kPing, Kind::kConsent, Kind::kNoConsent, Kind::kStop, Kind::kClearFault};
+constexpr std::array kKindOfVerb{Kind::kPing, Kind::kConsent, Kind::kNoConsent, Kind::kStop, Kind::kClearFault};
 
 }  // namespace
 
@@ -107,7 +107,7 @@ int console_command(const ConsoleOptions& options) {
     warn_of_pose(status.value());
   }
   const Result<Verdict> verdict =
-      client.command(kKinds[static_cast<std::size_t>(options.verb)], status.value().question);
+      client.command(kKindOfVerb[static_cast<std::size_t>(options.verb)], status.value().question);
   if (!verdict) {
     return refuse(verdict.error());
   }

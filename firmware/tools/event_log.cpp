@@ -15,7 +15,7 @@
 namespace ivo::firmware {
 namespace {
 
-std::string quoted(std::string_view text) {
+std::string json_quoted(std::string_view text) {
   std::string quoted = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') {
@@ -98,7 +98,8 @@ Result<void> EventLog::go_on(const LoggedRun& run, double search_s) {
   tracks_ = run.tracks;
   ended_s_ = run.last_s;
   shift_.reset();
-  append("{\"t_s\":" + shortest(ended_s_) + field("event", quoted("resumed")) + field("search_time_s", search_s) + "}");
+  append("{\"t_s\":" + shortest(ended_s_) + field("event", json_quoted("resumed")) + field("search_time_s", search_s) +
+         "}");
   return lost_ || std::fflush(file_.get()) != 0 ? cannot_be_written(path_) : Result<void>();
 }
 
@@ -140,12 +141,12 @@ void EventLog::append(const std::string& line) {
 
 std::string EventLog::line(const Event& event) const {
   const auto text = [&](std::string_view name, const std::string& fields = {}) {
-    return "{\"t_s\":" + shortest(time_s(event.at)) + field("event", quoted(name)) + fields + "}";
+    return "{\"t_s\":" + shortest(time_s(event.at)) + field("event", json_quoted(name)) + fields + "}";
   };
-  const auto agent = [&] { return field("agent", quoted(agents_[event.agent])); };
+  const auto agent = [&] { return field("agent", json_quoted(agents_[event.agent])); };
   switch (event.kind) {
     case EventKind::kMode:
-      return text("mode", field("mode", quoted(name_of(static_cast<Mode>(event.code)))));
+      return text("mode", field("mode", json_quoted(name_of(static_cast<Mode>(event.code)))));
     case EventKind::kPlanImproved:
       return text("plan improved",
                   field("generation", event.code) + field("expected_time_s", event.x) + field("unseen_mass", event.y));
@@ -154,7 +155,7 @@ std::string EventLog::line(const Event& event) const {
     case EventKind::kConsent:
       return text("consent");
     case EventKind::kStopAsked:
-      return text("stop asked", field("cause", quoted(name_of(static_cast<StopCause>(event.code)))));
+      return text("stop asked", field("cause", json_quoted(name_of(static_cast<StopCause>(event.code)))));
     case EventKind::kSearchStarted:
       return text("search started");
     case EventKind::kPosition:
@@ -166,10 +167,10 @@ std::string EventLog::line(const Event& event) const {
     case EventKind::kDriveFault:
       return text("drive fault", field("wheel", std::int32_t{event.agent}) + field("reason", event.code));
     case EventKind::kOverrun:
-      return text("overrun",
-                  field("periods", event.code) + field("then", quoted(name_of(static_cast<Lateness>(event.agent)))));
+      return text("overrun", field("periods", event.code) +
+                                 field("then", json_quoted(name_of(static_cast<Lateness>(event.agent)))));
     case EventKind::kBusState:
-      return text("bus", field("state", quoted(hal::name_of(static_cast<hal::BusState>(event.code)))));
+      return text("bus", field("state", json_quoted(hal::name_of(static_cast<hal::BusState>(event.code)))));
     case EventKind::kFaultCleared:
       return text("fault cleared");
   }

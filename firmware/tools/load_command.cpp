@@ -20,11 +20,11 @@ namespace {
 
 using drivers::FrameKind;
 
-constexpr std::array<const char*, drivers::kFrameKinds> kKinds = {"NMT",  "SYNC", "EMCY",      "TPDO",
-                                                                  "RPDO", "SDO",  "heartbeat", "other"};
+constexpr std::array<const char*, drivers::kFrameKinds> kFrameKindNames = {"NMT",  "SYNC", "EMCY",      "TPDO",
+                                                                           "RPDO", "SDO",  "heartbeat", "other"};
 constexpr Duration kSdoEvery = std::chrono::milliseconds(10);
 
-const char* name_of(std::uint16_t id) { return kKinds[static_cast<std::size_t>(drivers::kind_of(id))]; }
+const char* name_of(std::uint16_t id) { return kFrameKindNames[static_cast<std::size_t>(drivers::kind_of(id))]; }
 double ms(Duration time) { return 1e3 * seconds(time); }
 
 void show_frames(const Robot& robot) {
@@ -72,8 +72,8 @@ Result<void> show_measured(const Robot& robot, const std::string& path) {
   for (std::size_t kind = 0; kind < drivers::kFrameKinds; ++kind) {
     const drivers::LoadMeter::Share& share = figures.kinds[kind];
     if (share.frames > 0) {
-      say("", format("%-9s  %9llu frames  %6.2f %%", kKinds[kind], static_cast<unsigned long long>(share.frames),
-                     100 * share.load));
+      say("", format("%-9s  %9llu frames  %6.2f %%", kFrameKindNames[kind],
+                     static_cast<unsigned long long>(share.frames), 100 * share.load));
     }
   }
   if (contents.others > 0) {

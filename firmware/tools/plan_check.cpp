@@ -14,8 +14,6 @@ namespace {
 
 constexpr double kStartTolerance_m = 0.01;
 
-std::string place(Point p) { return "(" + shortest(p.x_m) + ", " + shortest(p.y_m) + ")"; }
-
 std::string names_of(const std::vector<AgentSpec>& agents) {
   std::string names;
   for (const AgentSpec& agent : agents) {
@@ -59,13 +57,13 @@ std::optional<std::string> fault_of(const std::vector<Point>& way, const AgentSp
   }
   const double off_m = std::hypot(way.front().x_m - spec.start.x_m, way.front().y_m - spec.start.y_m);
   if (off_m > kStartTolerance_m) {
-    return at + "waypoints_m[0]: " + place(way.front()) + " is not where " + spec.name + " starts; expected " +
-           place(spec.start);
+    return at + "waypoints_m[0]: " + shortest(way.front()) + " is not where " + spec.name + " starts; expected " +
+           shortest(spec.start);
   }
   for (std::size_t i = 1; i < way.size(); ++i) {
     if (const std::optional<std::string> what = obstruction(map, body, way[i - 1], way[i])) {
-      return at + element("waypoints_m", i) + ": the way of " + spec.name + " from " + place(way[i - 1]) + " to " +
-             place(way[i]) + " " + *what + "; expected free ground for its footprint of " +
+      return at + element("waypoints_m", i) + ": the way of " + spec.name + " from " + shortest(way[i - 1]) + " to " +
+             shortest(way[i]) + " " + *what + "; expected free ground for its footprint of " +
              shortest(body.footprint_radius_m) + " m";
     }
   }

@@ -30,8 +30,6 @@ planner::Areas areas_of(const std::vector<Polygon>& polygons) {
 constexpr double kPaperRho = 0.002;
 constexpr double kFastRho = 0.02;
 
-std::string place(Point p) { return "(" + shortest(p.x_m) + ", " + shortest(p.y_m) + ")"; }
-
 std::string metres(double value) { return shortest(std::round(value * 100) / 100) + " m"; }
 
 Error sentence(const planner::Refusal& refusal, const MissionInputs& inputs) {
@@ -49,18 +47,19 @@ Error sentence(const planner::Refusal& refusal, const MissionInputs& inputs) {
       return {"a node of the graph given to the planner has " + shortest(refusal.value) +
               " neighbours; expected at most " + shortest(refusal.limit)};
     case RefusalCode::kStartOutsideMap:
-      return lines.at(agent_key + ".start_m", place(agent->start) + " is outside the map; expected 0 to " +
+      return lines.at(agent_key + ".start_m", shortest(agent->start) + " is outside the map; expected 0 to " +
                                                   shortest(inputs.map.view().width_m()) + ", 0 to " +
                                                   shortest(inputs.map.view().height_m()) + " (metres)");
     case RefusalCode::kStartBlocked:
-      return lines.at(agent_key + ".start_m",
-                      refusal.value <= 0 ? place(agent->start) + " is inside an obstacle; expected a free place with " +
-                                               metres(refusal.limit) + " around it"
-                                         : place(agent->start) + " is " + metres(refusal.value) +
-                                               " from an obstacle or the border; expected at least " +
-                                               metres(refusal.limit) + ", the footprint's radius");
+      return lines.at(agent_key + ".start_m", refusal.value <= 0
+                                                  ? shortest(agent->start) +
+                                                        " is inside an obstacle; expected a free place with " +
+                                                        metres(refusal.limit) + " around it"
+                                                  : shortest(agent->start) + " is " + metres(refusal.value) +
+                                                        " from an obstacle or the border; expected at least " +
+                                                        metres(refusal.limit) + ", the footprint's radius");
     case RefusalCode::kStartRestricted:
-      return lines.at(agent_key + ".start_m", place(agent->start) + " is where " + agent->name +
+      return lines.at(agent_key + ".start_m", shortest(agent->start) + " is where " + agent->name +
                                                   " may not be; expected a start outside restricted classes and areas");
     case RefusalCode::kPriorWithoutMass:
       return lines.at("prior", "holds no mass on any free cell of the map; expected some where an object may lie");
@@ -198,7 +197,7 @@ std::optional<Error> off_the_map(const MissionInputs& inputs) {
   for (std::size_t i = 0; i < inputs.gaussians.size(); ++i) {
     if (const Point mean = inputs.gaussians[i].mean; !map.contains(mean)) {
       return inputs.file.lines.at("prior.gaussians[" + std::to_string(i) + "].mean_m",
-                                  place(mean) + " is outside the map" + expected);
+                                  shortest(mean) + " is outside the map" + expected);
     }
   }
   for (std::size_t m = 0; m < mission.agents.size(); ++m) {
@@ -214,12 +213,12 @@ std::optional<Error> off_the_map(const MissionInputs& inputs) {
   }
   if (const Point* object = std::get_if<Point>(&mission.object)) {
     if (!map.contains(*object)) {
-      return inputs.file.lines.at("object", place(*object) + " is outside the map" + expected);
+      return inputs.file.lines.at("object", shortest(*object) + " is outside the map" + expected);
     }
     const int column = static_cast<int>(object->x_m / map.resolution_m);
     const int row = static_cast<int>(object->y_m / map.resolution_m);
     if (map.obstacle(column, row)) {
-      return inputs.file.lines.at("object", place(*object) + " is inside an obstacle, " +
+      return inputs.file.lines.at("object", shortest(*object) + " is inside an obstacle, " +
                                                 std::string(name_of(map.at(column, row))) + "; expected a free place");
     }
   }

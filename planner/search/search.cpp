@@ -16,7 +16,7 @@ constexpr int kFastAntsLeast = 1;
 constexpr int kRestartAfter = 60;
 
 // Of a part at most: what parts multiply it by stays a whole number.
-constexpr int kMostRows = 1 << 16;
+constexpr int kMostRowsAtOnce = 1 << 16;
 
 }  // namespace
 
@@ -47,7 +47,7 @@ void Search::step(Budget budget) noexcept {
   last_slice_ = kind();
   int left = budget.units;
   while (left > 0 && last_slice_ != SliceKind::kNone && kind() == last_slice_) {
-    const int rows = std::min(left, kMostRows);
+    const int rows = std::min(left, kMostRowsAtOnce);
     if (improving_) {
       left -= improver_.advance(rows);
     } else if (!colony_.done()) {

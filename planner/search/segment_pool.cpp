@@ -11,8 +11,8 @@ namespace {
 
 constexpr int kQ = 256;  // parts of a tick
 constexpr int kAll = 1 << 30;
-constexpr double kLongest_m = 5e5;  // of a map; then products of ticks and their fractions stay whole numbers
-constexpr int kMostRows = 1 << 20;  // of cells, and columns
+constexpr double kLongest_m = 5e5;   // of a map; then products of ticks and their fractions stay whole numbers
+constexpr int kMostLines = 1 << 20;  // of cells: rows or columns
 
 }  // namespace
 
@@ -31,7 +31,7 @@ bool SegmentPool::open() noexcept {
       span_m < 2.0 * cells.cell_m() || part_m * kTicksAMetre < 1.0) {
     return false;
   }
-  if (std::max(map.width_m(), map.height_m()) > kLongest_m || std::max(cells.columns(), cells.rows()) > kMostRows) {
+  if (std::max(map.width_m(), map.height_m()) > kLongest_m || std::max(cells.columns(), cells.rows()) > kMostLines) {
     return false;
   }
   part_ticks_ = static_cast<std::int32_t>(part_m * kTicksAMetre);

@@ -30,6 +30,9 @@ target_compile_options(
             # The same sums on every CPU: no fused multiply-add behind the formula's back.
             -ffp-contract=off)
 
+option(IVO_FOLDER_AT_ONCE "Compile the sources of a folder as one: sooner done, for builds that are made once. In one folder a name of an \
+anonymous namespace is given once" OFF)
+
 # ivo_room(FOLDER [EXCEPT file...] [LINKS target...]): the library of FOLDER's sources. firmware/motion becomes
 # ivo_firmware_motion.
 function(ivo_room folder)
@@ -41,6 +44,16 @@ function(ivo_room folder)
   if(sources)
     add_library(${name} STATIC ${sources})
     target_link_libraries(${name} PUBLIC ivo_flags ${ROOM_LINKS})
+    if(IVO_FOLDER_AT_ONCE)
+      set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+      target_compile_options(${name} PRIVATE -Wno-subobject-linkage) # what is private to one source is to all of them
+      foreach(source ${sources})
+        cmake_path(RELATIVE_PATH source BASE_DIRECTORY ${PROJECT_SOURCE_DIR})
+        cmake_path(GET source PARENT_PATH group)
+        string(REPLACE "/" "_" group ${group})
+        set_source_files_properties(${PROJECT_SOURCE_DIR}/${source} PROPERTIES UNITY_GROUP ${group})
+      endforeach()
+    endif()
   else()
     add_library(${name} INTERFACE)
     target_link_libraries(${name} INTERFACE ivo_flags ${ROOM_LINKS})

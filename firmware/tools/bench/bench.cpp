@@ -33,6 +33,11 @@ double worst_of(const std::vector<double>& values, Sense good) {
 
 std::span<const Bench> benches() { return kBenches; }
 
+double mean(const std::vector<double>& values) {
+  IVO_CONTRACT(!values.empty());
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
 void Sheet::add(const std::string& case_name, const std::string& figure, double value, const std::string& unit,
                 std::optional<Target> target) {
   std::optional<bool> holds;
@@ -53,9 +58,7 @@ void Sheet::add_median(const std::string& case_name, const std::string& figure, 
 
 void Sheet::add_mean(const std::string& case_name, const std::string& figure, const std::vector<double>& values,
                      const std::string& unit, std::optional<Target> target) {
-  IVO_CONTRACT(!values.empty());
-  add(case_name, figure, std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size()), unit,
-      target);
+  add(case_name, figure, mean(values), unit, target);
   add(case_name, figure + ", worst", worst_of(values, target ? target->sense : Sense::kAtMost), unit);
 }
 

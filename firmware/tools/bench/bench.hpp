@@ -67,6 +67,9 @@ class Sheet {
   std::vector<Record> records_;
 };
 
+/// Of at least one value.
+[[nodiscard]] double mean(const std::vector<double>& values);
+
 struct Bench {
   const char* name = "";
   const char* about = "";  ///< one line

@@ -130,14 +130,6 @@ Comparison run(planner::Planner& planner, const Case& c, const Options& options,
   return comparison;
 }
 
-double mean(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double value : values) {
-    sum += value;
-  }
-  return sum / static_cast<double>(values.size());
-}
-
 /// Ours is to be at or below the best rival.
 void add(const std::string& name, const Comparison& comparison, std::size_t time, double time_s, Sheet& sheet) {
   const std::vector<Column>& columns = comparison.at[time];

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kSecond = 1.0;  // the time for which there is a target
 
-struct Case {
+struct QualityCase {
   PaperPrior prior;
   double spacing_m;
   double target_s;
@@ -81,12 +81,12 @@ void add_time(const std::string& name, const std::vector<Run>& runs, std::size_t
 }  // namespace
 
 void quality(const Options& options, Sheet& sheet) {
-  const Case cases[] = {
+  const QualityCase cases[] = {
       {PaperPrior::kUniform, 5.0, 77.3}, {PaperPrior::kUniform, 3.5, 83.8}, {PaperPrior::kGaussians, 3.5, 36.8}};
   const std::vector<double> times_s = options.quick ? std::vector{0.05, 0.2} : std::vector{0.1, kSecond, 10.0};
   const std::size_t seeds = options.quick ? 2 : 10;
   Cores cores;
-  for (const Case& c : cases) {
+  for (const QualityCase& c : cases) {
     std::vector<Run> runs(seeds);
     cores.each(seeds, "quality", [&](std::size_t i, planner::Planner& planner) {
       const Result<Scene> scene = paper_scene(PaperMap::kM1, c.prior, c.spacing_m);

@@ -14,7 +14,7 @@
 namespace ivo::firmware::bench {
 namespace {
 
-struct Case {
+struct SpeedCase {
   PaperMap map = PaperMap::kM1;
   const char* word = "";     ///< as ivo-naive calls the map
   double published_s = 0.0;  ///< Gil and Sanfeliu, RA-L 2024, Table I, TSP
@@ -22,7 +22,8 @@ struct Case {
 };
 
 // M1: asked for. M2: the same share of what the paper reports, 116 s x 0.25 / 44.
-constexpr std::array<Case, 2> kCases = {{{PaperMap::kM1, "m1", 44.0, 0.25}, {PaperMap::kM2, "m2", 116.0, 0.66}}};
+constexpr std::array<SpeedCase, 2> kSpeedCases = {
+    {{PaperMap::kM1, "m1", 44.0, 0.25}, {PaperMap::kM2, "m2", 116.0, 0.66}}};
 
 const Json* record_of(const Json& list, const std::string& figure) {
   const auto found = std::find_if(list.elements.begin(), list.elements.end(), [&](const Json& record) {
@@ -34,7 +35,7 @@ const Json* record_of(const Json& list, const std::string& figure) {
 }
 
 /// Both planners measured by ivo-naive in one run.
-void add_naive(const Case& c, const std::string& scene, bool quick, Sheet& sheet) {
+void add_naive(const SpeedCase& c, const std::string& scene, bool quick, Sheet& sheet) {
   const std::string name = scene + ", beside the naive planner";
   const Result<std::string> text =
       output_of_neighbour("ivo-naive", {"--map", c.word, "--generations", quick ? "1" : "4", "--json", "-"});
@@ -61,7 +62,7 @@ void add_naive(const Case& c, const std::string& scene, bool quick, Sheet& sheet
 void speed(const Options& options, Sheet& sheet) {
   const auto planner = make_planner();
   const int runs = options.quick ? 2 : 9;
-  for (const Case& c : kCases) {
+  for (const SpeedCase& c : kSpeedCases) {
     Result<Scene> scene = paper_scene(c.map, PaperPrior::kUniform, 3.5);
     if (!scene) {
       sheet.skip("M2/U", scene.error().message);

@@ -14,7 +14,7 @@ struct Published {
   double path_distance_m;
 };
 
-struct Row {
+struct Table1Row {
   PaperMap map;
   PaperPrior prior;
   std::optional<Published> tsp;  ///< Gil and Sanfeliu, RA-L 2024, Table I
@@ -24,8 +24,8 @@ struct Row {
 using enum PaperMap;
 using enum PaperPrior;
 
-const std::vector<Row>& rows() {
-  static const std::vector<Row> kRows = {
+const std::vector<Table1Row>& rows() {
+  static const std::vector<Table1Row> kRows = {
       {kM1, kUniform, {{80.98, 44, 371.42}}, {{94.60, 168, 839.45}}},
       {kM1, kUniformSubPriors, {{84.14, 47, 361.05}}, {{116.95, 184, 730.43}}},
       {kM1, kGaussians, {{39.33, 44, 419.67}}, {{37.01, 156, 785.91}}},
@@ -44,32 +44,24 @@ constexpr double kPaperRho = 0.002;
 
 double cell_m(const Options& options) { return options.quick ? 0.5 : 0.25; }
 
-struct Case {
-  Row row;
+struct Table1Case {
+  Table1Row row;
   planner::Heuristic heuristic;
   double spacing_m;
   std::string name;
   std::vector<Result<Found>> trials;
 };
 
-std::vector<Case> cases_of(const Options& options, std::size_t trials) {
-  std::vector<Case> cases;
+std::vector<Table1Case> cases_of(const Options& options, std::size_t trials) {
+  std::vector<Table1Case> cases;
   for (const double spacing_m : options.quick ? std::vector{5.0} : std::vector{5.0, 3.5}) {
     for (const planner::Heuristic heuristic : {planner::Heuristic::kTsp, planner::Heuristic::kMts}) {
-      for (const Row& row : rows()) {
+      for (const Table1Row& row : rows()) {
         cases.push_back({row, heuristic, spacing_m, {}, std::vector<Result<Found>>(trials, Error{})});
       }
     }
   }
   return cases;
-}
-
-double mean(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double value : values) {
-    sum += value;
-  }
-  return sum / static_cast<double>(values.size());
 }
 
 std::vector<double> all(const std::vector<Result<Found>>& trials, double (*of)(const Found&)) {
@@ -81,7 +73,7 @@ std::vector<double> all(const std::vector<Result<Found>>& trials, double (*of)(c
   return values;
 }
 
-void add_case(const Case& c, double given_s, Sheet& sheet) {
+void add_case(const Table1Case& c, double given_s, Sheet& sheet) {
   if (!c.trials.front()) {
     sheet.skip(c.name, c.trials.front().error().message);
     return;
@@ -117,10 +109,10 @@ void add_case(const Case& c, double given_s, Sheet& sheet) {
 
 void table1(const Options& options, Sheet& sheet) {
   const std::size_t trials = options.quick ? 2 : 10;
-  std::vector<Case> cases = cases_of(options, trials);
+  std::vector<Table1Case> cases = cases_of(options, trials);
   Cores cores;
   cores.each(cases.size() * trials, "table1", [&](std::size_t i, planner::Planner& planner) {
-    Case& c = cases[i / trials];
+    Table1Case& c = cases[i / trials];
     Result<Scene> scene = paper_scene(c.row.map, c.row.prior, c.spacing_m);
     if (!scene) {
       c.trials[i % trials] = scene.error();
@@ -137,7 +129,7 @@ void table1(const Options& options, Sheet& sheet) {
     c.trials[i % trials] = search_to_end(planner, problem);
   });
   double given_s = 0.0;
-  for (Case& c : cases) {
+  for (Table1Case& c : cases) {
     const Result<Scene> scene = paper_scene(c.row.map, c.row.prior, c.spacing_m);
     c.name = (scene ? scene.value().name : "M2") +
              (c.heuristic == planner::Heuristic::kTsp ? " TSP" : " MTS (our reading)") +

@@ -5,11 +5,10 @@
 #include "firmware/files/json_value.hpp"
 #include "firmware/tools/doctor/latency_figures.hpp"
 #include "firmware/tools/doctor/report_text.hpp"
+#include "firmware/tools/microseconds.hpp"
 
 namespace ivo::firmware::doctor {
 namespace {
-
-Json us(Duration time) { return 1e6 * seconds(time); }
 
 Json latency(const LatencyRun& run) {
   const LatencyFigures figures = figures_of(run);

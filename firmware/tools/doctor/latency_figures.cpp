@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/tools/microseconds.hpp"
 #include "firmware/tools/terminal.hpp"
 
 namespace ivo::firmware::doctor {
@@ -12,7 +13,6 @@ constexpr std::size_t kMostBins = 20;
 constexpr std::int64_t kLastEdge_us = 1'000'000'000;
 
 std::int64_t whole_us(Duration time) { return std::chrono::duration_cast<std::chrono::microseconds>(time).count(); }
-double us(Duration time) { return 1e6 * seconds(time); }
 unsigned long long number(std::uint64_t value) { return value; }
 
 /// 0, then each of `steps` (in tenths, from 10 to below 100) in each decade, where it is a whole number.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "firmware/tools/microseconds.hpp"
 #include "firmware/tools/terminal.hpp"
 
 namespace ivo::firmware {
@@ -11,8 +12,6 @@ namespace {
 
 constexpr std::size_t kBarWidth = 40;
 constexpr int kMostBars = 10;
-
-double us(Duration time) { return static_cast<double>(time.count()) / 1e3; }
 
 // Of equal ratio, a part of an octave or whole octaves, so that few enough reach from `first` to `last`.
 std::vector<Duration> edges_between(Duration first, Duration last) {

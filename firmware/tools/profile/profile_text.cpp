@@ -2,6 +2,7 @@
 
 #include <string_view>
 
+#include "firmware/tools/microseconds.hpp"
 #include "firmware/tools/profile/histogram_text.hpp"
 #include "firmware/tools/terminal.hpp"
 
@@ -9,7 +10,6 @@ namespace ivo::firmware {
 namespace {
 
 double number(Duration time) { return static_cast<double>(time.count()); }
-double us(Duration time) { return number(time) / 1e3; }
 std::string rounded(double value) { return grouped(static_cast<std::uint64_t>(value + 0.5)); }
 double percent(double part, double whole) { return whole > 0.0 ? 100.0 * part / whole : 0.0; }
 

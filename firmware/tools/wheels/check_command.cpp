@@ -12,7 +12,6 @@
 namespace ivo::firmware::wheels {
 namespace {
 
-constexpr double kUsualRadps = 0.5;
 constexpr double kUsualTurns = 1.0;
 
 class Check {

@@ -9,7 +9,6 @@
 namespace ivo::firmware::wheels {
 namespace {
 
-constexpr double kUsualRadps = 0.5;
 constexpr double kSlowestRadps = 0.01;
 
 }  // namespace

@@ -17,6 +17,8 @@ struct Options {
   std::optional<double> seconds;  ///< of watch; without it until it is stopped
 };
 
+inline constexpr double kUsualRadps = 0.5;  ///< of turn and check
+
 // Each returns the exit status: 0 all is well, 1 something is not, or a fault, or a stop; 2 wrong input, nothing was
 // sent.
 [[nodiscard]] int list(const Options& options);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "config/base/time.hpp"
+#include "config/rates.hpp"
 #include "firmware/tools/bench/can/fault_rig.hpp"
 
 namespace ivo::firmware::bench {
@@ -42,6 +43,14 @@ struct FaultRow {
   std::function<Result<FaultFigures>()> instead{};  ///< tried in this way, of its own
   std::string skip{};                               ///< why it is not provoked here; empty: it is
 };
+
+/// What most rows do something to.
+inline constexpr Wheel kVictim = Wheel::kRearLeft;
+[[nodiscard]] inline drivers::SimScript& victim(FaultRig& rig) { return rig.drive(kVictim).script(); }
+inline void no_meddling(FaultRig& rig) { rig.meddle().outgoing = nullptr; }
+
+/// How soon the loop sees what it needs no patience for.
+inline constexpr Duration kAtOnce = 2 * rates::kCycle;
 
 /// Every row, by number.
 [[nodiscard]] std::vector<FaultRow> fault_rows();

@@ -9,12 +9,7 @@ namespace {
 
 using Frames = std::vector<hal::CanFrame>;
 
-constexpr Wheel kVictim = Wheel::kRearLeft;
 constexpr std::uint16_t kAnswer = drivers::cob_id::sdo_answer(3);
-
-drivers::SimScript& victim(FaultRig& rig) { return rig.drive(kVictim).script(); }
-
-void no_meddling(FaultRig& rig) { rig.meddle().outgoing = nullptr; }
 
 /// Changes the drive's SDO answers.
 void answers(FaultRig& rig, std::function<void(hal::CanFrame&)> change) {

@@ -11,7 +11,6 @@ namespace {
 using std::chrono_literals::operator""ms;
 using std::chrono_literals::operator""s;
 
-constexpr Duration kAtOnce = 2 * rates::kCycle;
 constexpr int kSmallQueueBytes = 23'000;      // the kernel doubles it: 60 frames of 766 bytes
 constexpr std::uint32_t kErrorsGone = 0x084;  // emergencies of drive 4 with code 0: heard, and no fault
 

@@ -9,13 +9,9 @@ namespace {
 using std::chrono_literals::operator""ms;
 using std::chrono_literals::operator""s;
 
-constexpr Wheel kVictim = Wheel::kRearLeft;
 constexpr std::uint8_t kVictimNode = 3;
-constexpr Duration kAtOnce = 2 * rates::kCycle;
 constexpr std::uint8_t kPreOperational = 0x80;  // NMT commands
 constexpr std::uint8_t kStop = 0x02;
-
-drivers::SimScript& victim(FaultRig& rig) { return rig.drive(kVictim).script(); }
 
 hal::CanFrame nmt(std::uint8_t command) { return {.id = 0x000, .size = 2, .data = {command, kVictimNode}}; }
 

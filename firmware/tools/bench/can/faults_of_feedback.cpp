@@ -16,13 +16,9 @@ using std::chrono_literals::operator""ms;
 using std::chrono_literals::operator""s;
 using Frames = std::vector<hal::CanFrame>;
 
-constexpr Wheel kVictim = Wheel::kRearLeft;
 constexpr std::uint16_t kFeedback = drivers::cob_id::tpdo1(3);
-constexpr Duration kAtOnce = 2 * rates::kCycle;
 
 bool is_feedback(const hal::CanFrame& frame) { return frame.id == kFeedback; }
-
-void no_meddling(FaultRig& rig) { rig.meddle().outgoing = nullptr; }
 
 /// Every `one_in`th feedback of the drive is lost.
 void lose(FaultRig& rig, int one_in) {

@@ -7,7 +7,6 @@ namespace {
 
 constexpr std::size_t kEmergencyStop = 0;
 constexpr std::size_t kBumper = 1;
-constexpr Duration kAtOnce = 2 * rates::kCycle;
 
 }  // namespace
 

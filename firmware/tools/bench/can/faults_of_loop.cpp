@@ -11,8 +11,6 @@ namespace {
 using std::chrono_literals::operator""ms;
 using std::chrono_literals::operator""s;
 
-constexpr Duration kAtOnce = 2 * rates::kCycle;
-
 bool no_drive_is_enabled(FaultRig& rig) {
   for (int i = 0; i < kWheels; ++i) {
     if (rig.drive(static_cast<Wheel>(i)).power_state() == drivers::cia402::PowerState::kOperationEnabled) {

@@ -10,8 +10,6 @@ namespace {
 using std::chrono_literals::operator""ms;
 using std::chrono_literals::operator""s;
 
-constexpr Duration kAtOnce = 2 * rates::kCycle;
-
 std::string foreign(std::uint16_t id) {
   return format("another master on the bus sent COB-ID %03Xh; expected none but this controller", id);
 }

@@ -14,8 +14,6 @@ using planner::Edge;
 using planner::index;
 using planner::Node;
 
-double distance_m(Point a, Point b) { return std::hypot(b.x_m - a.x_m, b.y_m - a.y_m); }
-
 }  // namespace
 
 FreeWays::FreeWays(const RivalProblem& problem, int agent)

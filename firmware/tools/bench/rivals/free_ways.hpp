@@ -1,6 +1,7 @@
 // Ways between any two places for one agent: straight where the footprint swept along is free, else over the graph.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -8,6 +9,8 @@
 #include "planner/world/collision.hpp"
 
 namespace ivo::firmware::rivals {
+
+[[nodiscard]] inline double distance_m(Point a, Point b) { return std::hypot(b.x_m - a.x_m, b.y_m - a.y_m); }
 
 class FreeWays {
  public:

@@ -22,8 +22,6 @@ struct Setting {
   unsigned corners = 0;  // lane by lane: two bits an agent, which corner of its share comes first; 0 is the nearest
 };
 
-double distance_m(Point a, Point b) { return std::hypot(b.x_m - a.x_m, b.y_m - a.y_m); }
-
 class Lawnmower {
  public:
   explicit Lawnmower(const RivalProblem& problem) : problem_(problem) {
