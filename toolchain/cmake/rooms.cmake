@@ -30,8 +30,19 @@ target_compile_options(
             # The same sums on every CPU: no fused multiply-add behind the formula's back.
             -ffp-contract=off)
 
-option(IVO_FOLDER_AT_ONCE "Compile the sources of a folder as one: sooner done, for builds that are made once. In one folder a name of an \
-anonymous namespace is given once" OFF)
+option(IVO_FOLDER_AT_ONCE "Compile the sources of a folder as one: sooner done, where a build is made once" OFF)
+
+# ivo_folder_at_once(TARGET SOURCE...): in one folder, so, a name of an anonymous namespace is given once.
+function(ivo_folder_at_once target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  target_compile_options(${target} PRIVATE -Wno-subobject-linkage) # what is private to one source is to all of them
+  foreach(source ${ARGN})
+    cmake_path(GET source PARENT_PATH group)
+    cmake_path(RELATIVE_PATH group BASE_DIRECTORY ${PROJECT_SOURCE_DIR})
+    string(REPLACE "/" "_" group ${group})
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group})
+  endforeach()
+endfunction()
 
 # ivo_room(FOLDER [EXCEPT file...] [LINKS target...]): the library of FOLDER's sources. firmware/motion becomes
 # ivo_firmware_motion.
@@ -45,14 +56,7 @@ function(ivo_room folder)
     add_library(${name} STATIC ${sources})
     target_link_libraries(${name} PUBLIC ivo_flags ${ROOM_LINKS})
     if(IVO_FOLDER_AT_ONCE)
-      set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-      target_compile_options(${name} PRIVATE -Wno-subobject-linkage) # what is private to one source is to all of them
-      foreach(source ${sources})
-        cmake_path(RELATIVE_PATH source BASE_DIRECTORY ${PROJECT_SOURCE_DIR})
-        cmake_path(GET source PARENT_PATH group)
-        string(REPLACE "/" "_" group ${group})
-        set_source_files_properties(${PROJECT_SOURCE_DIR}/${source} PROPERTIES UNITY_GROUP ${group})
-      endforeach()
+      ivo_folder_at_once(${name} ${sources})
     endif()
   else()
     add_library(${name} INTERFACE)
