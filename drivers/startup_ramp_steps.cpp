@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "config/base/contract.hpp"
 #include "drivers/cia402/objects.hpp"
 
 namespace ivo::drivers {

@@ -2,7 +2,6 @@
 
 #include <chrono>
 
-#include "config/base/contract.hpp"
 #include "config/rates.hpp"
 #include "drivers/canopen/cob_id.hpp"
 #include "drivers/canopen/communication_objects.hpp"

@@ -21,6 +21,9 @@ using Instant = LoopClock::time_point;
 /// Seconds as a number, for arithmetic at the edge of a formula and for files.
 [[nodiscard]] constexpr double seconds(Duration d) noexcept { return std::chrono::duration<double>(d).count(); }
 
+/// As people read a delay in a report.
+[[nodiscard]] constexpr double microseconds(Duration d) noexcept { return static_cast<double>(d.count()) / 1e3; }
+
 /// The nearest whole nanosecond to `s` seconds.
 [[nodiscard]] constexpr Duration from_seconds(double s) noexcept {
   return Duration(static_cast<Duration::rep>(s * 1e9 + (s < 0 ? -0.5 : 0.5)));

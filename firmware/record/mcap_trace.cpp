@@ -17,8 +17,6 @@ constexpr int kWarning = 3;
 constexpr int kError = 4;
 constexpr std::int64_t kFloat32 = 7;  // of foxglove.PackedElementField
 
-double us(Duration time) { return static_cast<double>(time.count()) / 1e3; }
-
 std::string vector(double x, double y) { return JsonText().add("x", x).add("y", y).add("z", 0.0).done(); }
 std::string quaternion(double heading_rad) {
   return JsonText()
@@ -68,7 +66,7 @@ void McapTrace::take(const TraceEvent& event) {
       end_cycle(event);
       break;
     case TraceKind::kPhase:
-      phases_.add(TraceNames::of(options_.names.phases, event.code), us(Duration(event.lasted_ns)));
+      phases_.add(TraceNames::of(options_.names.phases, event.code), microseconds(Duration(event.lasted_ns)));
       break;
     case TraceKind::kMode:
       say(kInfo, "mode: " + TraceNames::of(options_.names.modes, event.code));
@@ -115,8 +113,8 @@ void McapTrace::end_cycle(const TraceEvent& event) {
   const TracedWork work = event.get<TracedWork>();
   file_.add_message(timing_, now_,
                     JsonText()
-                        .add("cycle_us", us(Duration(event.lasted_ns)))
-                        .add("wake_up_latency_us", us(Duration(cycle_.latency_ns)))
+                        .add("cycle_us", microseconds(Duration(event.lasted_ns)))
+                        .add("wake_up_latency_us", microseconds(Duration(cycle_.latency_ns)))
                         .add("skipped", cycle_.skipped)
                         .add("planner_units", work.units)
                         .add("planner_moves", work.moves)

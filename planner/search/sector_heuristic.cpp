@@ -11,7 +11,7 @@ namespace ivo::planner {
 namespace {
 
 constexpr double kLogLambda = -0.22314355131420976;  // ln 0.8
-constexpr int kOneDiscount = 1 << 15;                // of a discount
+constexpr int kDiscountOne = 1 << 15;                // of a discount
 
 // |angle| <= 22.5 degrees: tan 22.5 = sqrt(2) - 1, in 1/4096.
 constexpr std::int64_t kTanScale = 4096;
@@ -28,7 +28,7 @@ void SectorHeuristic::open() noexcept {
   spacing_units2_ = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::min(spacing * spacing, 0x1p60)));
   for (int i = 0; i < kDiscounts; ++i) {
     const auto discount = [](double squared) {
-      return static_cast<std::int32_t>(kOneDiscount * exp_negative(kLogLambda * std::sqrt(squared)) + 0.5);
+      return static_cast<std::int32_t>(kDiscountOne * exp_negative(kLogLambda * std::sqrt(squared)) + 0.5);
     };
     near_discount_[index(i)] = discount((i + 0.5) / 32.0);
     far_discount_[index(i)] = discount((i + 0.5) * 2.0);
@@ -158,7 +158,7 @@ int SectorHeuristic::weigh(Mass mass, std::int64_t dx, std::int64_t dy) noexcept
 #if IVO_PLANNER_FIXED
       sums_[i] += static_cast<std::uint64_t>(mass.raw()) * static_cast<std::uint64_t>(discount);
 #else
-      sums_[i] += mass * discount * (1.0 / kOneDiscount);
+      sums_[i] += mass * discount * (1.0 / kDiscountOne);
 #endif
     });
   }

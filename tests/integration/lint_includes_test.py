@@ -14,6 +14,9 @@ class Includes(unittest.TestCase):
     def accepts(self, path, include):
         self.assertEqual(lint.run("includes", {path: f"#include {include}\n"}), (0, ""))
 
+    def test_no_source_includes_another(self):
+        self.refuses("planner/world/graph.cpp", '"planner/world/graph_build.cpp"', "a source is compiled, not included")
+
     def test_config_stands_on_the_standard_library_alone(self):
         self.accepts("config/robot.hpp", "<array>")
         self.accepts("config/base/latest.hpp", '"config/base/contract.hpp"')

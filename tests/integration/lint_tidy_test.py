@@ -18,9 +18,15 @@ class Tidy(unittest.TestCase):
         shutil.copy(os.path.join(lint.SOURCE_DIR, ".clang-tidy"), self.tree)
         self.write("planner/one.hpp", "#pragma once\n\ninline int one() { return 1; }\n")
         self.write("planner/one.cpp", '#include "planner/one.hpp"\n\nint two() { return one() + one(); }\n')
-        source = os.path.join(self.tree, "planner/one.cpp")
-        command = f"c++ -I{self.tree} -std=c++20 -c {source}"
-        self.write("build/release/compile_commands.json", json.dumps([{"directory": self.tree, "file": source, "command": command}]))
+        self.compiles("planner/one.cpp")
+
+    def compiles(self, *paths):
+        entries = []
+        for path in paths:
+            source = os.path.join(self.tree, path)
+            command = f"c++ -I{self.tree} -std=c++20 -o {path}.o -c {source}"
+            entries.append({"directory": self.tree, "file": source, "command": command, "output": path + ".o"})
+        self.write("build/release/compile_commands.json", json.dumps(entries))
 
     def write(self, path, text):
         os.makedirs(os.path.join(self.tree, os.path.dirname(path)), exist_ok=True)
@@ -48,6 +54,24 @@ class Tidy(unittest.TestCase):
         status, said = self.tidy()
         self.assertEqual(status, 1, said)
         self.assertIn("planner/one.hpp:4:7: error: variable 'a' is not initialized", said)
+
+    def test_finds_what_is_wrong_in_any_source_of_a_folder(self):
+        self.write("planner/two.cpp", "int three() {\n  int c;\n  c = 3;\n  return c;\n}\n")
+        self.write("planner/a_main.cpp", "int main() {}\n")
+        self.write("planner/b_main.cpp", "int main() {}\n")
+        self.compiles("planner/a_main.cpp", "planner/b_main.cpp", "planner/one.cpp", "planner/two.cpp")
+        status, said = self.tidy()
+        self.assertEqual(status, 1, said)
+        self.assertIn("planner/two.cpp:2:7: error: variable 'c' is not initialized", said)
+        self.assertIn("3 checked", said)
+        self.assertIn("1 refused", said)
+
+    def test_refuses_a_build_whose_commands_name_no_source(self):
+        self.write("planner/a_main.cpp", "int main() {}\n")
+        self.compiles("planner/a_main.cpp", "build/asan/unity_0.cpp")
+        status, said = self.tidy()
+        self.assertNotEqual(status, 0)
+        self.assertIn("expected a build that compiles them one by one", said)
 
     def test_checks_anew_when_the_list_of_checks_changes(self):
         self.tidy()

@@ -33,6 +33,10 @@ class Words(unittest.TestCase):
         self.accepts("drivers/fault_text.cpp", '#include "drivers/fault_text.hpp"\nstd::string s;')
         self.refuses("drivers/a.cpp", '#include "drivers/fault_text.hpp"', "drivers/fault_text.hpp: text formatting")
 
+    def test_refuses_an_alias_that_nothing_uses(self):
+        self.refuses("firmware/a.cpp", "namespace fs = std::filesystem;  // fs::path", "fs: an alias that is not used")
+        self.accepts("firmware/a.cpp", "namespace fs = std::filesystem;\nfs::path p;")
+
     def test_accepts_them_elsewhere(self):
         self.accepts("firmware/files/a.cpp", "std::vector<std::string> v; throw 3;")
 

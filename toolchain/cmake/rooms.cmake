@@ -32,10 +32,12 @@ target_compile_options(
 
 option(IVO_FOLDER_AT_ONCE "Compile the sources of a folder as one: sooner done, where a build is made once" OFF)
 
-# ivo_folder_at_once(TARGET SOURCE...): in one folder, so, a name of an anonymous namespace is given once.
+# ivo_folder_at_once(TARGET SOURCE...): each folder of them becomes one source. A name of an anonymous namespace must therefore be given
+# only once in a folder.
 function(ivo_folder_at_once target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-  target_compile_options(${target} PRIVATE -Wno-subobject-linkage) # what is private to one source is to all of them
+  # What is private to a source is private to its folder.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   foreach(source ${ARGN})
     cmake_path(GET source PARENT_PATH group)
     cmake_path(RELATIVE_PATH group BASE_DIRECTORY ${PROJECT_SOURCE_DIR})

@@ -5,7 +5,6 @@
 #include "firmware/files/json_value.hpp"
 #include "firmware/tools/doctor/latency_figures.hpp"
 #include "firmware/tools/doctor/report_text.hpp"
-#include "firmware/tools/microseconds.hpp"
 
 namespace ivo::firmware::doctor {
 namespace {
@@ -22,14 +21,14 @@ Json latency(const LatencyRun& run) {
           {"thread", thread_text(run)},
           {"real_time", run.real_time},
           {"locked_memory", run.locked},
-          {"period_us", us(run.period)},
+          {"period_us", microseconds(run.period)},
           {"wake_ups", std::uint64_t{run.late.size()}},
-          {"least_us", us(figures.least)},
-          {"median_us", us(figures.median)},
-          {"p99_us", us(figures.p99)},
-          {"p999_us", us(figures.p999)},
-          {"most_us", us(figures.most)},
-          {"budget_us", us(figures.budget)},
+          {"least_us", microseconds(figures.least)},
+          {"median_us", microseconds(figures.median)},
+          {"p99_us", microseconds(figures.p99)},
+          {"p999_us", microseconds(figures.p999)},
+          {"most_us", microseconds(figures.most)},
+          {"budget_us", microseconds(figures.budget)},
           {"over_budget", figures.over_budget},
           {"lost_periods", run.lost_periods},
           {"page_faults", run.faults.minor + run.faults.major},

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "firmware/tools/microseconds.hpp"
 #include "firmware/tools/terminal.hpp"
 
 namespace ivo::firmware::doctor {
@@ -92,12 +91,13 @@ Group latency_checks(const LatencyRun& run) {
   group.findings.push_back(run.real_time
                                ? ok("measured", who)
                                : warning("measured", who, "the remedy of real-time priority above, then again"));
-  const std::string spread = format("least %.1f, median %.1f, p99 %.1f, p99.9 %.1f, most %.1f us", us(figures.least),
-                                    us(figures.median), us(figures.p99), us(figures.p999), us(figures.most));
+  const std::string spread = format("least %.1f, median %.1f, p99 %.1f, p99.9 %.1f, most %.1f us",
+                                    microseconds(figures.least), microseconds(figures.median),
+                                    microseconds(figures.p99), microseconds(figures.p999), microseconds(figures.most));
   group.findings.push_back(figures.most < run.period ? ok("late by", spread)
                                                      : fault("late by", spread, remedy_of_lateness(run)));
   const std::string late = format("%llu later than the budget of %.0f us, a tenth of the cycle; %llu periods lost",
-                                  number(figures.over_budget), us(figures.budget), number(run.lost_periods));
+                                  number(figures.over_budget), microseconds(figures.budget), number(run.lost_periods));
   group.findings.push_back(figures.over_budget == 0 ? ok("too late", late)
                                                     : warning("too late", late, remedy_of_lateness(run)));
   const std::string faults = format("%llu while it ran", number(run.faults.minor + run.faults.major));

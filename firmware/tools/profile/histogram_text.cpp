@@ -4,7 +4,6 @@
 #include <cmath>
 #include <vector>
 
-#include "firmware/tools/microseconds.hpp"
 #include "firmware/tools/terminal.hpp"
 
 namespace ivo::firmware {
@@ -58,12 +57,13 @@ std::string histogram_text(const TimeHistogram& times) {
   const std::uint64_t most = *std::max_element(counts.begin(), counts.end());
   std::string text;
   for (std::size_t i = 0; i < counts.size(); ++i) {
-    text +=
-        line(format("%9.1f to %9.1f us", us(edges[i]), us(edges[i + 1])), counts[i], std::max<std::uint64_t>(1, most));
+    text += line(format("%9.1f to %9.1f us", microseconds(edges[i]), microseconds(edges[i + 1])), counts[i],
+                 std::max<std::uint64_t>(1, most));
   }
   const std::uint64_t beyond = times.between(edges.back(), Duration::max());
-  return beyond == 0 ? text
-                     : text + line(format("%9.1f us and more", us(edges.back())), beyond, std::max(most, beyond));
+  return beyond == 0
+             ? text
+             : text + line(format("%9.1f us and more", microseconds(edges.back())), beyond, std::max(most, beyond));
 }
 
 }  // namespace ivo::firmware

@@ -2,7 +2,6 @@
 
 #include <string_view>
 
-#include "firmware/tools/microseconds.hpp"
 #include "firmware/tools/profile/histogram_text.hpp"
 #include "firmware/tools/terminal.hpp"
 
@@ -19,8 +18,8 @@ std::string title(const char* name, std::uint64_t count, const char* of) {
 }
 
 std::string row(std::string_view name, const TimeHistogram& times) {
-  return format("  %-16s%10.2f%9.2f%9.2f%10.2f", std::string(name).c_str(), us(times.quantile(0.5)),
-                us(times.quantile(0.99)), us(times.quantile(0.999)), us(times.worst()));
+  return format("  %-16s%10.2f%9.2f%9.2f%10.2f", std::string(name).c_str(), microseconds(times.quantile(0.5)),
+                microseconds(times.quantile(0.99)), microseconds(times.quantile(0.999)), microseconds(times.worst()));
 }
 std::string row(std::string_view name, const TimeHistogram& times, Duration whole) {
   return row(name, times) + format("%7.1f %%", percent(number(times.total()), number(whole)));
@@ -71,7 +70,8 @@ std::string steps_text(const CycleProfile& profile) {
     const StepFigures& step = profile.steps.at(kind);
     if (step.slices.count() > 0) {
       text += row(name_of(static_cast<planner::SliceKind>(kind)), step.slices, thinking) +
-              format("%9s%9.2f%11s\n", grouped(step.slices.count()).c_str(), us(step.thousand_units.quantile(0.5)),
+              format("%9s%9.2f%11s\n", grouped(step.slices.count()).c_str(),
+                     microseconds(step.thousand_units.quantile(0.5)),
                      step.moves > 0 ? rounded(a_second(step.moves, step.undisturbed())).c_str() : "-");
     }
   }

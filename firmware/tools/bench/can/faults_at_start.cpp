@@ -1,5 +1,4 @@
 // 16 to 18 and 20: what start-up finds. Nothing has moved yet, and nothing will.
-#include "config/rates.hpp"
 #include "drivers/canopen/cob_id.hpp"
 #include "drivers/canopen/communication_objects.hpp"
 #include "firmware/tools/bench/can/fault_row.hpp"

@@ -10,8 +10,6 @@ constexpr double kPixel_m = 0.25;
 constexpr double kSpacing_m = 3.5;
 constexpr double kSpeed_mps = 0.5;
 
-double us(Duration time) { return seconds(time) * 1e6; }
-
 }  // namespace
 
 LoopRig::LoopRig(int generations)
@@ -51,9 +49,9 @@ CycleCost LoopRig::cycle() {
   const std::int64_t units = loop_->planner_units();
   const Instant begin = stopwatch_.now();
   loop_->cycle({.now = now_});
-  CycleCost cost{.whole_us = us(stopwatch_.now() - begin)};
+  CycleCost cost{.whole_us = microseconds(stopwatch_.now() - begin)};
   for (std::size_t i = 0; i < kPhases; ++i) {
-    cost.phases_us[i] = us(times.phases[i].total() - before[i]);
+    cost.phases_us[i] = microseconds(times.phases[i].total() - before[i]);
   }
   cost.planner_units = static_cast<double>(loop_->planner_units() - units);
   drives_.update(now_);

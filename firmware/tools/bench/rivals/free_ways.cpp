@@ -1,7 +1,6 @@
 #include "firmware/tools/bench/rivals/free_ways.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <limits>
 #include <queue>
