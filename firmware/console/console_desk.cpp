@@ -26,7 +26,12 @@ std::optional<Kind> ConsoleDesk::take(Asks asks) {
   return asks == status_.asks ? std::exchange(answer_, std::nullopt) : std::nullopt;
 }
 
-Verdict ConsoleDesk::submit(const Command& command) {
+Verdict ConsoleDesk::submit(const ClientMessage& message) {
+  const Command* const said = std::get_if<Command>(&message);
+  if (said == nullptr) {
+    return Verdict::kNotNow;
+  }
+  const Command& command = *said;
   switch (command.header.kind) {
     case Kind::kStop:
       stop_();

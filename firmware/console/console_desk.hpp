@@ -6,6 +6,7 @@
 #include <mutex>
 #include <optional>
 
+#include "firmware/console/command_check.hpp"
 #include "firmware/console/console_messages.hpp"
 
 namespace ivo::firmware::console {
@@ -25,7 +26,7 @@ class ConsoleDesk {
 
   // The console's thread.
   /// What a command that is well-formed means now; acts on it where it is accepted.
-  [[nodiscard]] Verdict submit(const Command& command);
+  [[nodiscard]] Verdict submit(const ClientMessage& message);
   [[nodiscard]] Status status() const;
 
  private:

@@ -22,7 +22,7 @@ constexpr int kMessagesPerTurn = 64;    // of one client
 constexpr auto kBetweenTurns = 5ms;     // so a flood costs a part of a processor, and waits at its sender
 constexpr int kUnreadStatuses = 8192;   // bytes at a client that does not read: it hears news, not a backlog
 constexpr int kUnreadBytes = 131'072;   // answers have room beyond it
-constexpr std::size_t kLongest = 1024;  // bytes read of a packet; what is longer is refused by its size
+constexpr std::size_t kLongest = 2048;  // bytes read of a packet; what is longer is refused by its size
 constexpr auto kStatusEvery = std::chrono::nanoseconds(std::chrono::seconds(1)) / kStatusPerSecond;
 
 template <class Message>
@@ -162,10 +162,10 @@ void ConsoleSocket::hear(Client& client) {
     }
     const auto whole = static_cast<std::size_t>(size);
     const std::span<const std::byte> read = std::span(packet).first(std::min(whole, packet.size()));
-    Command command;
-    Verdict verdict = client.check.judge(read, whole, Clock::now(), command);
+    ClientMessage message;
+    Verdict verdict = client.check.judge(read, whole, Clock::now(), message);
     if (verdict == Verdict::kAccepted) {
-      verdict = desk_.submit(command);
+      verdict = desk_.submit(message);
     }
     answer(client, claimed_sequence(read), verdict);
   }

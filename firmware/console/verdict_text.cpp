@@ -20,6 +20,10 @@ std::string_view name_of(Verdict verdict) noexcept {
       "an answer to another question than is asked now",
       "answered already",
       "from a client too many",
+      "with a number out of range",
+      "not possible now",
+      "about a plan or areas that are not the newest",
+      "not an area",
   };
   const auto number = static_cast<std::size_t>(verdict);
   return number < kNames.size() ? kNames[number] : "refused for a reason that this program does not know";
