@@ -66,7 +66,10 @@ Status status_of(const LoopStatus& loop, int agents) {
   status.heading_rad = loop.robot.heading_rad;
   for (std::size_t i = 0; i < std::min(loop.tracks.size(), static_cast<std::size_t>(agents)); ++i) {
     const AgentTrack& track = loop.tracks[i];
-    status.agent[i] = {track.position.x_m, track.position.y_m, track.moved_m, as_byte(track.path_ended), 0};
+    status.agent[i] = {.x_m = track.position.x_m,
+                       .y_m = track.position.y_m,
+                       .moved_m = track.moved_m,
+                       .path_ended = as_byte(track.path_ended)};
   }
 
   const LoopCounters& counters = loop.counters;
