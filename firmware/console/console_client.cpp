@@ -81,7 +81,7 @@ Result<ConsoleClient::Heard> ConsoleClient::hear(Clock::time_point until) {
     return Error{path_ + ": the controller is silent; expected a status " + std::to_string(kStatusPerSecond) +
                  " times a second"};
   }
-  std::array<std::byte, sizeof(Status)> packet{};
+  std::array<std::byte, sizeof(DocumentPart)> packet{};
   const ssize_t size = ::recv(socket_.get(), packet.data(), packet.size(), MSG_TRUNC);
   if (size <= 0) {
     return Error{path_ + ": the controller has ended"};
@@ -89,6 +89,9 @@ Result<ConsoleClient::Heard> ConsoleClient::hear(Clock::time_point until) {
   Heard heard;
   heard.status = read_as<Status>(Kind::kStatus, packet.data(), static_cast<std::size_t>(size));
   heard.answer = read_as<Answer>(Kind::kAnswer, packet.data(), static_cast<std::size_t>(size));
+  if (read_as<DocumentPart>(Kind::kDocumentPart, packet.data(), static_cast<std::size_t>(size))) {
+    return heard;  // what is shown on a terminal is in the status
+  }
   if (!heard.status && !heard.answer) {
     return Error{path_ + ": who listens there does not speak as this program does; expected version " +
                  std::to_string(kVersion) + " of the console's messages"};
