@@ -126,8 +126,7 @@ Verdict ConsoleDesk::take_word(const AreaCommand& area) {
 // The newest counts. Of the robot too: others see where it is said to be.
 Verdict ConsoleDesk::take_word(const PoseCommand& pose) {
   const std::lock_guard lock(mutex_);
-  const bool on_the_map =
-      pose.x_m >= 0 && pose.y_m >= 0 && pose.x_m <= rules_.width_m && pose.y_m <= rules_.height_m;
+  const bool on_the_map = pose.x_m >= 0 && pose.y_m >= 0 && pose.x_m <= rules_.width_m && pose.y_m <= rules_.height_m;
   if (pose.agent >= rules_.agents || !on_the_map) {
     return Verdict::kOutOfRange;
   }
@@ -191,7 +190,7 @@ Verdict ConsoleDesk::want(const Command& command) {
     return Verdict::kOutdated;
   }
   return is(status_, Mode::kPlanning) && status_.preparing == 0 && status_.horizon_s > 0 ? keep(command)
-                                                                                        : Verdict::kNotNow;
+                                                                                         : Verdict::kNotNow;
 }
 
 Verdict ConsoleDesk::accept(const Command& command) {

@@ -18,11 +18,11 @@ namespace {
 
 using std::chrono_literals::operator""ms;
 
-constexpr int kMessagesPerTurn = 64;    // of one client
-constexpr auto kBetweenTurns = 5ms;     // so a flood costs a part of a processor, and waits at its sender
-constexpr int kUnreadStatuses = 32768;  // bytes at a client that does not read: it hears news, not a backlog
-constexpr int kUnreadDocuments = 24576; // a document that is not read does not keep statuses back
-constexpr int kPartsPerTurn = 4;        // of documents, to one client
+constexpr int kMessagesPerTurn = 64;     // of one client
+constexpr auto kBetweenTurns = 5ms;      // so a flood costs a part of a processor, and waits at its sender
+constexpr int kUnreadStatuses = 32768;   // bytes at a client that does not read: it hears news, not a backlog
+constexpr int kUnreadDocuments = 24576;  // a document that is not read does not keep statuses back
+constexpr int kPartsPerTurn = 4;         // of documents, to one client
 constexpr auto kBetweenParts = 2ms;
 constexpr auto kLastWords = 500ms;
 constexpr int kUnreadBytes = 131'072;   // answers have room beyond it

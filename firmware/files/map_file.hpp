@@ -26,9 +26,9 @@ struct MapFile {
   [[nodiscard]] planner::SegmentedMap view() const;
 };
 
-/// Keys: image, resolution_m, optional classes (a class table; the built-in one without it) and aerial. Paths in the file are
-/// relative to it. Refuses a pixel whose colour is no class of the table, saying where, which, and what is nearest.
-/// Whether the map fits the planner's limits is for the planner to say.
+/// Keys: image, resolution_m, optional classes (a class table; the built-in one without it) and aerial. Paths in the
+/// file are relative to it. Refuses a pixel whose colour is no class of the table, saying where, which, and what is
+/// nearest. Whether the map fits the planner's limits is for the planner to say.
 [[nodiscard]] Result<MapFile> read_map(const std::string& toml_path);
 
 }  // namespace ivo::firmware

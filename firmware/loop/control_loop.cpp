@@ -126,6 +126,7 @@ void ControlLoop::take(const OperatorCommand& command) noexcept {
     case OperatorCommand::kConsent:
       consent_ = command.pauses == pauses_;  // who agreed before a pause has not agreed to go on after it
       watched_ = command.watched;
+      beat_at_ = now_;  // who agrees is there
       break;
     case OperatorCommand::kClearFault:
       clear_asked_ = mode_ == Mode::kFault;
@@ -346,7 +347,7 @@ Twist ControlLoop::choose_velocity() noexcept {
 }
 
 Twist ControlLoop::follow() noexcept {
-  if (mode_ != Mode::kSearching || !search_started_) {
+  if (mode_ != Mode::kSearching || !search_started_ || wheels_.state != drivers::GroupState::kEnabled) {
     return {};
   }
   following_ = follower_.update({.pose = odometry_.pose(), .moving = moving_, .dt = dt_});

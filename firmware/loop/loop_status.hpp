@@ -37,8 +37,8 @@ struct LoopStatus {
   bool plan_ready = false;
   std::uint32_t plan_number = 1;  ///< of the plan that `planning` is about
   bool preparing = false;         ///< a plan is to be made anew, and its tables are not there yet
-  bool power_off = false;  ///< the drives have said that they are off
-  bool finished = false;   ///< drives off or given up: no cycle is needed any more
+  bool power_off = false;         ///< the drives have said that they are off
+  bool finished = false;          ///< drives off or given up: no cycle is needed any more
   planner::Progress planning;
   Pose robot;
   std::array<AgentTrack, limits::kAgents> tracks{};

@@ -119,8 +119,8 @@ void SearchRun::update(Instant now, Point robot, bool robot_path_ended) noexcept
       tracks_[m].path_ended = robot_path_ended;
     } else if (searcher.motion == PersonMotion::kSimulated) {
       persons_[m].walk(dt);
-      tracks_[m] = {persons_[m].position(), tracks_[m].before_m + persons_[m].walked_m(), tracks_[m].before_m, under_way,
-                    persons_[m].arrived()};
+      tracks_[m] = {persons_[m].position(), tracks_[m].before_m + persons_[m].walked_m(), tracks_[m].before_m,
+                    under_way, persons_[m].arrived()};
     } else {
       tracks_[m].under_way = under_way;
       tracks_[m].path_ended = at_the_end(m);

@@ -30,7 +30,7 @@ struct AgentTrack {
   Point position;
   double moved_m = 0.0;   ///< since the search started
   double before_m = 0.0;  ///< of it, before the plan that is followed now
-  Duration under_way{};  ///< until the path ended
+  Duration under_way{};   ///< until the path ended
   bool path_ended = false;
 };
 

@@ -85,7 +85,7 @@ int run(const RunOptions& given) {
   if (!read) {
     return refuse(read.error());
   }
-  MissionInputs inputs = std::move(read).value();  // people may draw other areas than it has
+  MissionInputs inputs = std::move(read).value();                  // people may draw other areas than it has
   Result<hal::ServiceNotify> notify = hal::ServiceNotify::open();  // before there is another thread
   if (!notify) {
     return refuse(notify.error());

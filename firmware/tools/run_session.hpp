@@ -76,10 +76,10 @@ class RunSession {
   std::optional<Mode> mode_shown_;
   std::uint8_t turning_told_ = 0;  // node-id of the wheel of which was said that it did not stop
   ConsentState consent_;
-  console::Asks asks_{};  // what we are waiting for
+  console::Asks asks_{};          // what we are waiting for
   std::uint32_t plan_shown_ = 0;  // its number
-  bool plan_not_kept_ = false;  // when it was shown
-  bool write_failed_ = false;   // anything, at any time
+  bool plan_not_kept_ = false;    // when it was shown
+  bool write_failed_ = false;     // anything, at any time
   bool keeping_failed_ = false;
 };
 

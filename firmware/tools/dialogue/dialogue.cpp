@@ -146,8 +146,8 @@ void Dialogue::look(const LoopStatus& status) {
   }
   for (std::size_t m = 0; m < inputs_.file.mission.agents.size(); ++m) {
     const AgentSpec& agent = inputs_.file.mission.agents[m];
-    const bool present = agent.kind == AgentKind::kRobot || agent.motion == PersonMotion::kSimulated ||
-                         status.report_age[m].has_value();
+    const bool present =
+        agent.kind == AgentKind::kRobot || agent.motion == PersonMotion::kSimulated || status.report_age[m].has_value();
     if (present) {
       searched_.look(planners_[current_]->cells(), status.tracks[m].position, agent.sight_radius_m);
     }

@@ -87,7 +87,7 @@ class Dialogue {
   std::uint32_t notices_ = 0;
   std::uint32_t areas_shown_ = 0;
   PlanMark plan_shown_;
-  std::string plan_ready_;  // the last that was planned to its end, as a document
+  std::string plan_ready_;                         // the last that was planned to its end, as a document
   std::array<double, limits::kAgents> along_m_{};  // of its path, each agent
 };
 

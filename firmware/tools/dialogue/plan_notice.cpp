@@ -41,7 +41,8 @@ PlanNotice notice_of(const planner::Refusal& refusal, const MissionInputs& input
       return notice;
     case RefusalCode::kAreaWithoutMass: {
       notice.code = "area_without_mass";
-      notice.text = "an area of " + name + " covers nothing that may hold the object and that they can see; expected one that does";
+      notice.text = "an area of " + name +
+                    " covers nothing that may hold the object and that they can see; expected one that does";
       const auto& of_agent = slots[static_cast<std::size_t>(refusal.agent)];
       if (static_cast<std::size_t>(refusal.area) < of_agent.size()) {
         notice.slot = of_agent[static_cast<std::size_t>(refusal.area)];
