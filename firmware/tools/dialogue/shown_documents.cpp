@@ -96,6 +96,7 @@ std::string mission_text(const PlanView& view) {
                       {"width_px", map.width_px},
                       {"height_px", map.height_px},
                       {"resolution_m", map.resolution_m},
+                      {"origin_m", map.origin_m},
                       {"aerial", !map.aerial_path.empty()}}},
                     {"cells", {{"columns", cells.columns()}, {"rows", cells.rows()}, {"cell_m", cells.cell_m()}}},
                     {"classes", classes_json(map.classes)},
