@@ -18,7 +18,9 @@ void PageSession::hear(std::string_view message, bool binary, Instant now) {
   }
   if (heard.verdict != Verdict::kAccepted) {
     hub_.refusals().count(heard.verdict);
-    answered(heard.sequence, heard.verdict);
+    if (answers_.size() < kUnreadRefusals) {
+      answered(heard.sequence, heard.verdict);
+    }
     return;
   }
   if (std::holds_alternative<Beat>(heard.request)) {
