@@ -9,6 +9,7 @@
 #include "firmware/files/class_file.hpp"
 #include "firmware/files/number_text.hpp"
 #include "firmware/files/png_file.hpp"
+#include "firmware/files/ros_map_file.hpp"
 #include "firmware/files/text_file.hpp"
 #include "firmware/files/toml_table.hpp"
 
@@ -76,15 +77,18 @@ Result<std::vector<SemanticClass>> classify(const ColourImage& image, const Clas
 
 planner::SegmentedMap MapFile::view() const { return {pixels, width_px, height_px, resolution_m, classes}; }
 
-Result<MapFile> read_map(const std::string& toml_path) {
-  const Result<TomlFile> toml = TomlFile::read(toml_path);
+Result<MapFile> read_map(const std::string& path) {
+  if (path.ends_with(".yaml") || path.ends_with(".yml")) {
+    return read_ros_map(path);
+  }
+  const Result<TomlFile> toml = TomlFile::read(path);
   if (!toml) {
     return toml.error();
   }
   const TomlValue root = toml.value().root();
   MapFile map;
-  map.path = toml_path;
-  map.image_path = beside(toml_path, root.required("image").text());
+  map.path = path;
+  map.image_path = beside(path, root.required("image").text());
   map.resolution_m = root.required("resolution_m").number({0.001, 100.0, "metres a pixel"});
   const std::string classes = root.optional("classes").text();
   const Result<void> finish = toml.value().finish();
@@ -92,7 +96,7 @@ Result<MapFile> read_map(const std::string& toml_path) {
     return finish.error();
   }
 
-  map.classes_path = classes.empty() ? "" : beside(toml_path, classes);
+  map.classes_path = classes.empty() ? "" : beside(path, classes);
   Result<ClassFile> table = classes.empty() ? built_in_classes() : read_classes(map.classes_path);
   if (!table) {
     return table.error();

@@ -24,6 +24,7 @@ struct Header {
   std::uint32_t height_px = 0;
   int bits = 0;
   bool colour = false;
+  bool alpha = false;
 };
 
 // libpng reports errors by longjmp. So that no destructor is jumped over, each function with a setjmp holds plain
@@ -95,6 +96,8 @@ class Decoder {
     header.height_px = png_get_image_height(png_, info_);
     header.bits = png_get_bit_depth(png_, info_);
     header.colour = (png_get_color_type(png_, info_) & PNG_COLOR_MASK_COLOR) != 0;
+    header.alpha =
+        (png_get_color_type(png_, info_) & PNG_COLOR_MASK_ALPHA) != 0 || png_get_valid(png_, info_, PNG_INFO_tRNS) != 0;
     return true;
   }
 
@@ -153,7 +156,8 @@ Result<ColourImage> read_colours(const std::string& path) {
   }
   const std::size_t width = header.value().width_px;
   const std::size_t height = header.value().height_px;
-  ColourImage image{static_cast<int>(width), static_cast<int>(height), std::vector<Colour>(width * height)};
+  ColourImage image{static_cast<int>(width), static_cast<int>(height), header.value().alpha,
+                    std::vector<Colour>(width * height)};
   std::vector<png_bytep> rows = rows_from_the_top(image.pixels.data(), height, width * sizeof(Colour));
   const Result<void> read = decoder.read(Target::kColours, rows, width * sizeof(Colour));
   if (!read) {

@@ -16,6 +16,7 @@ inline constexpr std::int64_t kMostPixels = 64'000'000;
 struct ColourImage {
   int width_px = 0;
   int height_px = 0;
+  bool alpha = false;          ///< the file says how transparent pixels are; that was ignored
   std::vector<Colour> pixels;  ///< row by row, the bottom row first
 };
 
