@@ -31,9 +31,7 @@ void PageSession::hear(std::string_view message, bool binary, Instant now) {
   }
 }
 
-void PageSession::answered(std::uint32_t number, Verdict verdict) {
-  answers_.push_back(answer_text(number, verdict));
-}
+void PageSession::answered(std::uint32_t number, Verdict verdict) { answers_.push_back(answer_text(number, verdict)); }
 
 std::optional<Frame> PageSession::next(Instant now) {
   writing_status_ = false;
