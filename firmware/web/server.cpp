@@ -150,7 +150,7 @@ Result<void> ServerLoop::listen(const Listening& listening) {
                  "; expected an address of this machine and a free port"};
   }
   turn_.loop = this;
-  on_turn(&turn_.timer);
+  lws_sul_schedule(context_, 0, &turn_.timer, on_turn, kTurnEvery.count());
   return {};
 }
 
@@ -194,17 +194,18 @@ void ServerLoop::end() {
   lws_context_destroy(std::exchange(context_, nullptr));
 }
 
-int ServerLoop::on_event(lws* connection, lws_callback_reasons reason, void* /*user*/, void* in, size_t size) {
+int ServerLoop::on_event(lws* connection, lws_callback_reasons reason, void* user, void* in, size_t size) {
   lws_context* const context = connection != nullptr ? lws_get_context(connection) : nullptr;
   auto* const loop = context != nullptr ? static_cast<ServerLoop*>(lws_context_user(context)) : nullptr;
+  if (loop != nullptr && reason == LWS_CALLBACK_FILTER_NETWORK_CONNECTION) {
+    return loop->limits_.allows(address_text(static_cast<lws_filter_network_conn_args*>(user)->cli_addr)) ? 0 : -1;
+  }
   return loop != nullptr ? loop->event(connection, reason, in, size) : 0;
 }
 
 int ServerLoop::event(lws* connection, lws_callback_reasons reason, void* in, std::size_t size) {
   const std::string_view text(in != nullptr ? static_cast<const char*>(in) : "", in != nullptr ? size : 0);
   switch (reason) {
-    case LWS_CALLBACK_FILTER_NETWORK_CONNECTION:
-      return limits_.allows(address_text(static_cast<lws_filter_network_conn_args*>(in)->cli_addr)) ? 0 : -1;
     case LWS_CALLBACK_SERVER_NEW_CLIENT_INSTANTIATED:
       instantiated(connection);
       return 0;
