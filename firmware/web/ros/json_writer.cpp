@@ -4,9 +4,28 @@
 #include <cmath>
 
 #include "firmware/files/number_text.hpp"
-#include "firmware/record/json_text.hpp"
 
 namespace ivo::firmware::web {
+namespace {
+
+/// Texts come from documents and messages that were UTF-8.
+std::string quoted(std::string_view text) {
+  constexpr const char* kDigits = "0123456789abcdef";
+  std::string out = "\"";
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      (out += '\\') += c;
+    } else if (byte < 0x20) {
+      ((out += "\\u00") += kDigits[byte >> 4U]) += kDigits[byte & 0xFU];
+    } else {
+      out += c;
+    }
+  }
+  return out + '"';
+}
+
+}  // namespace
 
 void JsonWriter::open(char bracket) {
   raw(std::string_view(&bracket, 1));
@@ -27,12 +46,12 @@ void JsonWriter::raw(std::string_view json) {
 }
 
 void JsonWriter::key(std::string_view name) {
-  raw(JsonText::quoted(name));
+  raw(quoted(name));
   text_ += ':';
   behind_value_ = false;
 }
 
-void JsonWriter::text(std::string_view value) { raw(JsonText::quoted(value)); }
+void JsonWriter::text(std::string_view value) { raw(quoted(value)); }
 void JsonWriter::number(double value) { raw(std::isfinite(value) ? shortest(value) : "null"); }
 void JsonWriter::whole(std::int64_t value) { raw(std::to_string(value)); }
 void JsonWriter::flag(bool value) { raw(value ? "true" : "false"); }

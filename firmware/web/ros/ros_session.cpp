@@ -14,6 +14,9 @@
 namespace ivo::firmware::web {
 namespace {
 
+// By then the controller has said which areas there are.
+constexpr Duration kClaim = std::chrono::seconds(2);
+
 const Json kNoArguments = Json::of(Json::Kind::kObject);
 
 std::string quoted_text(std::string_view text) {
@@ -214,8 +217,8 @@ void RosSession::hear_publish(const Json& message, const std::string& id, Instan
     return;
   }
   RosSetting setting{view_, *known, 0, now, now.time_since_epoch() + epoch_};
-  for (const Pending& pending : pending_) {
-    setting.claimed_slots |= pending.slot ? 1U << *pending.slot : 0U;
+  for (std::size_t slot = 0; slot < claimed_until_.size(); ++slot) {
+    setting.claimed_slots |= now < claimed_until_[slot] ? 1U << slot : 0U;
   }
   const Result<RosHeard> heard = heard_of(*topic, inner == nullptr ? kNoArguments : *inner, setting);
   if (!heard) {
@@ -313,13 +316,13 @@ void RosSession::hear_call(const Json& message, const std::string& id, Instant n
 
 void RosSession::ask(const Request& request, const std::string& id, const std::string& name, bool service,
                      Instant now) {
-  Pending pending{0, id, name, service, now, std::nullopt};
+  Pending pending{0, id, name, service, now};
   if (pending_.size() >= kMostPending) {
     finish(pending, Verdict::kTooOften);
     return;
   }
   if (const auto* put_area = std::get_if<PutArea>(&request)) {
-    pending.slot = put_area->slot;
+    claimed_until_[put_area->slot] = now + kClaim;
   }
   pending.ask = commands_.ask(request);
   pending_.push_back(std::move(pending));

@@ -1,6 +1,7 @@
 // One ROS client that speaks rosbridge's protocol: hears its messages, gives it those that it has subscribed to.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "config/base/time.hpp"
+#include "firmware/console/console_messages.hpp"
 #include "firmware/files/json_value.hpp"
 #include "firmware/web/ros/ros_commands.hpp"
 #include "firmware/web/ros/ros_feeds.hpp"
@@ -52,7 +54,6 @@ class RosSession {
     std::string name;  // of topic or service
     bool service = false;
     Instant at{};
-    std::optional<std::uint8_t> slot;  // of an area
   };
 
   [[nodiscard]] const RosMission* mission();
@@ -80,6 +81,7 @@ class RosSession {
   RosPace pace_;
   StatusLevel level_ = StatusLevel::kError;
   std::vector<Pending> pending_;
+  std::array<Instant, console::kAreaSlots> claimed_until_{};  // put, and perhaps not among the view's areas yet
   std::vector<Frame> frames_;
   std::uint64_t refused_ = 0;
   std::uint64_t dropped_ = 0;
