@@ -58,6 +58,20 @@ std::uint64_t inode_of(const std::string& path) {
   return ::lstat(path.c_str(), &status) == 0 ? status.st_ino : 0;
 }
 
+Result<hal::FileDescriptor> connected(const std::string& path, int flags) {
+  const Result<sockaddr_un> address = address_of(path);
+  if (!address) {
+    return address.error();
+  }
+  hal::FileDescriptor connection = made(flags);
+  if (!connection.valid() || ::connect(connection.get(), general(address.value()), sizeof(sockaddr_un)) != 0) {
+    return errno == ECONNREFUSED || errno == ENOENT
+               ? Error{path + ": nobody listens there; expected a controller that runs, as ivo run --console " + path}
+               : failure(path, "cannot be connected to");
+  }
+  return connection;
+}
+
 }  // namespace
 
 Listener::Listener(std::string path, hal::FileDescriptor socket)
@@ -100,18 +114,8 @@ Result<Listener> Listener::at(const std::string& path) {
   return Listener(path, std::move(listener));
 }
 
-Result<hal::FileDescriptor> connect_to(const std::string& path) {
-  const Result<sockaddr_un> address = address_of(path);
-  if (!address) {
-    return address.error();
-  }
-  hal::FileDescriptor connection = made(0);
-  if (!connection.valid() || ::connect(connection.get(), general(address.value()), sizeof(sockaddr_un)) != 0) {
-    return errno == ECONNREFUSED || errno == ENOENT
-               ? Error{path + ": nobody listens there; expected a controller that runs, as ivo run --console " + path}
-               : failure(path, "cannot be connected to");
-  }
-  return connection;
-}
+Result<hal::FileDescriptor> connect_to(const std::string& path) { return connected(path, 0); }
+
+Result<hal::FileDescriptor> connect_at_once(const std::string& path) { return connected(path, SOCK_NONBLOCK); }
 
 }  // namespace ivo::firmware::console

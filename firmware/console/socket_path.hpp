@@ -34,5 +34,7 @@ class Listener {
 
 /// A connection to who listens at `path`, which blocks. Fails with who is not there, or may not be asked.
 [[nodiscard]] Result<hal::FileDescriptor> connect_to(const std::string& path);
+/// The same without ever waiting, neither now nor later.
+[[nodiscard]] Result<hal::FileDescriptor> connect_at_once(const std::string& path);
 
 }  // namespace ivo::firmware::console

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <set>
 
 namespace ivo::firmware {
 namespace {
@@ -115,6 +117,42 @@ Error no_json(std::string_view text, std::size_t byte, const std::string& path, 
   return Error{path + ":" + std::to_string(line) + ": not JSON: " + fault + "; expected " + what};
 }
 
+/// Hears of every name while the library reads.
+class NameWatch {
+ public:
+  bool operator()(int /*depth*/, Library::parse_event_t event, const Library& parsed) {
+    if (event == Library::parse_event_t::object_start) {
+      names_.emplace_back();
+    } else if (event == Library::parse_event_t::object_end) {
+      names_.pop_back();
+    } else if (event == Library::parse_event_t::key) {
+      twice_ = !names_.back().insert(parsed.get<std::string>()).second || twice_;
+    }
+    return true;
+  }
+  [[nodiscard]] bool twice() const { return twice_; }
+
+ private:
+  std::vector<std::set<std::string>> names_;  // of the objects that are open
+  bool twice_ = false;
+};
+
+Result<Json> parsed(std::string_view text, const std::string& path, const std::string& what,
+                    const Library::parser_callback_t& watch) {
+  if (too_deep(text)) {
+    return Error{path + ": nested deeper than " + std::to_string(kDeepest) + " levels; expected " + what};
+  }
+  try {
+    return value_of(Library::parse(text, watch));
+  } catch (const Library::out_of_range&) {
+    return Error{path + ": holds a number beyond all bounds; expected finite numbers"};
+  } catch (const Library::parse_error& error) {
+    return no_json(text, error.byte, path, what);
+  } catch (const Library::exception&) {
+    return Error{path + ": not JSON; expected " + what};
+  }
+}
+
 }  // namespace
 
 Json::Json(std::uint64_t value) : kind(Kind::kCount), count(value), real(static_cast<double>(value)) {}
@@ -144,18 +182,16 @@ std::string json_text(const Json& document) {
 }
 
 Result<Json> parse_json(std::string_view text, const std::string& path, const std::string& what) {
-  if (too_deep(text)) {
-    return Error{path + ": nested deeper than " + std::to_string(kDeepest) + " levels; expected " + what};
+  return parsed(text, path, what, nullptr);
+}
+
+Result<Json> parse_strict_json(std::string_view text, const std::string& path, const std::string& what) {
+  NameWatch watch;
+  Result<Json> json = parsed(text, path, what, std::ref(watch));
+  if (json && watch.twice()) {
+    return Error{path + ": gives a name twice; expected " + what};
   }
-  try {
-    return value_of(Library::parse(text));
-  } catch (const Library::out_of_range&) {
-    return Error{path + ": holds a number beyond all bounds; expected finite numbers"};
-  } catch (const Library::parse_error& error) {
-    return no_json(text, error.byte, path, what);
-  } catch (const Library::exception&) {
-    return Error{path + ": not JSON; expected " + what};
-  }
+  return json;
 }
 
 }  // namespace ivo::firmware

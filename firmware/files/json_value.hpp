@@ -63,5 +63,7 @@ template <class Optional>
 /// Refuses what is no JSON and numbers that are too large, in one line: "PATH: what was wrong; what is expected".
 /// `what` is what the file should be, for the complaint: "a plan".
 [[nodiscard]] Result<Json> parse_json(std::string_view text, const std::string& path, const std::string& what);
+/// Refuses two members of one name too.
+[[nodiscard]] Result<Json> parse_strict_json(std::string_view text, const std::string& path, const std::string& what);
 
 }  // namespace ivo::firmware

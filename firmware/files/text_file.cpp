@@ -75,6 +75,31 @@ std::string folder_of(const std::string& path) {
   return folder.empty() ? "." : folder.string();
 }
 
+Result<void> write_as(const std::string& path, std::string_view contents, mode_t mode) {
+  if (Result<void> replaceable = no_other_thing(path); !replaceable) {
+    return replaceable;
+  }
+  const std::string folder = folder_of(path);
+  std::string temporary = temporary_name(folder, path);
+  Descriptor file(::mkostemp(temporary.data(), O_CLOEXEC));
+  if (file.get() < 0) {
+    return failure(path, "cannot be written");
+  }
+  // mkostemp hides the file from others, whom results are for too.
+  if (::fchmod(file.get(), mode) != 0 || !write_all(file.get(), contents) || ::fsync(file.get()) != 0 ||
+      !file.close() || std::rename(temporary.c_str(), path.c_str()) != 0) {
+    const Error error = failure(path, "cannot be written");
+    ::unlink(temporary.c_str());
+    return error;
+  }
+  // The new name survives a power cut only when the folder is synced too.
+  const Descriptor directory(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (directory.get() < 0 || ::fsync(directory.get()) != 0) {
+    return failure(folder, "cannot be synced");
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<std::string> read_file(const std::string& path) {
@@ -102,29 +127,10 @@ Result<std::string> read_file(const std::string& path) {
   }
 }
 
-Result<void> write_file(const std::string& path, std::string_view contents) {
-  if (Result<void> replaceable = no_other_thing(path); !replaceable) {
-    return replaceable;
-  }
-  const std::string folder = folder_of(path);
-  std::string temporary = temporary_name(folder, path);
-  Descriptor file(::mkostemp(temporary.data(), O_CLOEXEC));
-  if (file.get() < 0) {
-    return failure(path, "cannot be written");
-  }
-  // mkostemp hides the file from others; results are for all to read.
-  if (::fchmod(file.get(), 0644) != 0 || !write_all(file.get(), contents) || ::fsync(file.get()) != 0 ||
-      !file.close() || std::rename(temporary.c_str(), path.c_str()) != 0) {
-    const Error error = failure(path, "cannot be written");
-    ::unlink(temporary.c_str());
-    return error;
-  }
-  // The new name survives a power cut only when the folder is synced too.
-  const Descriptor directory(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (directory.get() < 0 || ::fsync(directory.get()) != 0) {
-    return failure(folder, "cannot be synced");
-  }
-  return {};
+Result<void> write_file(const std::string& path, std::string_view contents) { return write_as(path, contents, 0644); }
+
+Result<void> write_private_file(const std::string& path, std::string_view contents) {
+  return write_as(path, contents, 0600);
 }
 
 Result<void> check_writable(const std::string& path) {

@@ -15,6 +15,8 @@ namespace ivo::firmware {
 /// Written beside the target, synced, renamed; on failure the target is as it was and nothing is left behind.
 /// The folder must exist (make_folder), and what is there by that name must be a file: a device stays what it is.
 [[nodiscard]] Result<void> write_file(const std::string& path, std::string_view contents);
+/// The same, for its owner's eyes alone.
+[[nodiscard]] Result<void> write_private_file(const std::string& path, std::string_view contents);
 
 /// Whether write_file could put a file at `path` now; tried beside it, and nothing stays.
 [[nodiscard]] Result<void> check_writable(const std::string& path);

@@ -1,0 +1,78 @@
+#include "firmware/web/hub.hpp"
+
+#include "firmware/web/page_session.hpp"
+#include "firmware/web/ros_connection.hpp"
+
+namespace ivo::firmware::web {
+
+Session& Hub::came(const Paired& paired, bool ros, Instant now) {
+  controls_.turn(now);
+  const Screen screen = ++last_screen_;
+  controls_.came(screen, paired.hash);
+  std::unique_ptr<Session>& session = sessions_[screen];
+  if (ros) {
+    session = std::make_unique<RosConnection>(screen, paired, *this);
+  } else {
+    session = std::make_unique<PageSession>(screen, paired, *this);
+  }
+  ros_[screen] = ros;
+  ++changes_of_screens_;
+  return *session;
+}
+
+void Hub::went(Screen screen, Instant now) {
+  controls_.turn(now);
+  controls_.went(screen, now);
+  sessions_.erase(screen);
+  ros_.erase(screen);
+  ++changes_of_screens_;
+}
+
+std::optional<Verdict> Hub::ask(const Session& session, std::uint32_t number, const Request& request, Instant now) {
+  const Asker asker{.screen = session.screen(),
+                    .owner = session.paired().hash,
+                    .may_operate = session.paired().role == Role::kOperator,
+                    .fresh = session.liveness().fresh(now)};
+  return requests_.ask(asker, number, request, now);
+}
+
+void Hub::show(const Layer& layer) {
+  ShownLayer& shown = layers_[static_cast<std::size_t>(layer.name)];
+  ++shown.number;
+  shown.layer = layer;
+}
+
+void Hub::turn(Instant now) {
+  link_.turn(now);
+  controls_.turn(now);
+  published_.update(link_.view());
+  for (const Settled& settled : requests_.settled(now)) {
+    const auto found = sessions_.find(settled.screen);
+    if (found != sessions_.end()) {
+      found->second->answered(settled.number, settled.verdict);
+    }
+  }
+  if (status_.composed == 0 || now - composed_at_ >= kStatusEvery) {
+    compose(now);
+  }
+}
+
+void Hub::compose(Instant now) {
+  composed_at_ = now;
+  const Seen seen{.statuses = view().statuses,
+                  .link = view().link,
+                  .holder = controls_.holder(),
+                  .requester = controls_.requester(),
+                  .screens = changes_of_screens_,
+                  .refusals = refusals_};
+  status_.number += status_.composed == 0 || seen != seen_ ? 1 : 0;
+  seen_ = seen;
+  ++status_.composed;
+  Desk desk{.holder = seen.holder, .requester = seen.requester, .screens = {}, .refusals = refusals_};
+  for (const auto& [screen, session] : sessions_) {
+    desk.screens.push_back({.screen = screen, .name = session->paired().name, .ros = ros_[screen]});
+  }
+  status_.common = common_status(view(), desk, now);
+}
+
+}  // namespace ivo::firmware::web

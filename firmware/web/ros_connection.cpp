@@ -1,0 +1,70 @@
+#include "firmware/web/ros_connection.hpp"
+
+#include <variant>
+
+#include "firmware/web/hub.hpp"
+
+namespace ivo::firmware::web {
+
+RosConnection::RosConnection(Screen screen, const Paired& paired, Hub& hub)
+    : Session(screen, paired), hub_(hub), session_(hub.view(), *this) {}
+
+void RosConnection::hear(std::string_view message, bool binary, Instant now) {
+  now_ = now;
+  session_.hear(message, binary, now);
+  tell_verdicts();
+}
+
+void RosConnection::alive(Instant now) {
+  liveness().beat(now);
+  liveness().status_written(now);  // the ping that it answers came behind all that was written before
+  (void)hub_.ask(*this, 0, Beat{}, now);
+}
+
+std::uint32_t RosConnection::ask(const Request& request) {
+  const std::uint32_t number = ++asked_;
+  std::optional<Verdict> verdict = Verdict::kTooOften;
+  if (std::holds_alternative<Stop>(request) || rate_.allows(now_)) {
+    verdict = hub_.ask(*this, number, request, now_);
+  } else {
+    hub_.refusals().count(Verdict::kTooOften);
+  }
+  if (verdict) {
+    verdicts_.emplace_back(number, *verdict);
+  }
+  return number;
+}
+
+void RosConnection::show(const Layer& layer) { hub_.show(layer); }
+
+void RosConnection::answered(std::uint32_t number, Verdict verdict) {
+  if (number != 0) {
+    session_.answered(number, verdict);
+  }
+}
+
+void RosConnection::tell_verdicts() {
+  for (const auto& [number, verdict] : std::exchange(verdicts_, {})) {
+    session_.answered(number, verdict);
+  }
+}
+
+std::optional<Frame> RosConnection::next(Instant now) {
+  now_ = now;
+  if (frames_.empty()) {
+    for (Frame& frame : session_.take(now)) {
+      frames_.push_back(std::move(frame));
+    }
+    tell_verdicts();
+  }
+  if (frames_.empty()) {
+    return std::nullopt;
+  }
+  Frame frame = std::move(frames_.front());
+  frames_.pop_front();
+  return frame;
+}
+
+void RosConnection::written(Instant /*now*/) {}
+
+}  // namespace ivo::firmware::web
