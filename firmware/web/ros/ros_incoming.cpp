@@ -149,8 +149,6 @@ RosHeard read_message(JsonReading& reading, Incoming what, std::optional<std::si
     case Incoming::kRemoveArea:
       return {RemoveArea{static_cast<std::uint8_t>(reading.count(message, "", "data", console::kAreaSlots - 1))},
               std::nullopt};
-    case Incoming::kBeat:
-      return {Beat{}, std::nullopt};
     case Incoming::kInit:
       return button(reading, RosAsk::kInit, agent, message, setting);
     case Incoming::kReplan:

@@ -17,8 +17,7 @@ class RosPace {
  public:
   static constexpr std::size_t kMessagesPerSecond = 400;
   static constexpr std::size_t kBytesPerSecond = 16U << 20U;
-  static constexpr Duration kPositionPeriod = std::chrono::milliseconds(45);  ///< of an agent
-  static constexpr Duration kBeatPeriod = std::chrono::milliseconds(100);
+  static constexpr Duration kPositionPeriod = std::chrono::milliseconds(90);  ///< of an agent
 
   /// False for what is beyond the second's share.
   [[nodiscard]] bool may_say(std::size_t bytes, Instant now) {
@@ -32,30 +31,27 @@ class RosPace {
     return messages_ <= kMessagesPerSecond && bytes_ <= kBytesPerSecond;
   }
 
-  /// False for positions and beats that come so soon after the one before that they say nothing new.
+  /// False for a position that comes so soon after the agent's one before that it says nothing new.
   [[nodiscard]] bool worth_asking(const Request& request, Instant now) {
-    if (const auto* position = std::get_if<Position>(&request); position != nullptr && position->agent < kAgents) {
-      return is_due(position_[position->agent], kPositionPeriod, now);
+    const auto* const position = std::get_if<Position>(&request);
+    if (position == nullptr || position->agent >= kAgents) {
+      return true;
     }
-    return !std::holds_alternative<Beat>(request) || is_due(beat_, kBeatPeriod, now);
-  }
-
- private:
-  static constexpr std::size_t kAgents = console::kAgents;
-
-  static bool is_due(std::optional<Instant>& last, Duration period, Instant now) {
-    if (last && now - *last < period) {
+    std::optional<Instant>& last = position_[position->agent];
+    if (last && now - *last < kPositionPeriod) {
       return false;
     }
     last = now;
     return true;
   }
 
+ private:
+  static constexpr std::size_t kAgents = console::kAgents;
+
   std::optional<Instant> second_;
   std::size_t messages_ = 0;
   std::size_t bytes_ = 0;
   std::array<std::optional<Instant>, kAgents> position_;
-  std::optional<Instant> beat_;
 };
 
 }  // namespace ivo::firmware::web

@@ -32,13 +32,12 @@ constexpr std::array<TopicRow<Outgoing>, 12> kOutgoing = {{
     {Outgoing::kPose, "/ivo/pose", "", Agents::kRequired, "geometry_msgs/PoseStamped"},
 }};
 
-constexpr std::array<TopicRow<Incoming>, 13> kIncoming = {{
+constexpr std::array<TopicRow<Incoming>, 12> kIncoming = {{
     {Incoming::kRobotPose, "/ivo/robot/pose", "", Agents::kNone, "geometry_msgs/PoseWithCovarianceStamped"},
     {Incoming::kScan, "/scan", "", Agents::kNone, "sensor_msgs/LaserScan"},
     {Incoming::kPoints, "/points", "", Agents::kNone, "sensor_msgs/PointCloud2"},
     {Incoming::kPeople, "/people", "", Agents::kNone, "geometry_msgs/PoseArray"},
     {Incoming::kRemoveArea, "/ivo/remove_area", "", Agents::kNone, "std_msgs/UInt8"},
-    {Incoming::kBeat, "/ivo/beat", "", Agents::kNone, "std_msgs/Empty"},
     {Incoming::kInit, "/ivo/button/init", "", Agents::kNone, "std_msgs/Empty"},
     {Incoming::kReplan, "/ivo/button/replan", "", Agents::kNone, "std_msgs/Empty"},
     {Incoming::kStart, "/ivo/button/start", "", Agents::kNone, "std_msgs/Empty"},

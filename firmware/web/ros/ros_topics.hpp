@@ -33,7 +33,6 @@ enum class Incoming : std::uint8_t {
   kPoints,
   kPeople,
   kRemoveArea,
-  kBeat,
   kInit,
   kReplan,
   kStart,
