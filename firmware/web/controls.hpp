@@ -32,6 +32,10 @@ class Controls {
   [[nodiscard]] bool release(Screen screen);
 
   [[nodiscard]] bool held_by(Screen screen) const noexcept { return holder_ && holder_->screen == screen; }
+  /// By a screen of that owner, which is there.
+  [[nodiscard]] bool held_for(const std::string& owner) const noexcept {
+    return holder_ && !gone_at_ && holder_->owner == owner;
+  }
   [[nodiscard]] std::optional<Screen> holder() const noexcept;
   [[nodiscard]] std::optional<Screen> requester() const noexcept;
 

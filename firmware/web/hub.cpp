@@ -36,6 +36,15 @@ std::optional<Verdict> Hub::ask(const Session& session, std::uint32_t number, co
   return requests_.ask(asker, number, request, now);
 }
 
+std::optional<Verdict> Hub::ask(const Paired& paired, const Request& request, Instant now) {
+  controls_.turn(now);
+  const Asker asker{.screen = controls_.held_for(paired.hash) ? *controls_.holder() : 0,
+                    .owner = paired.hash,
+                    .may_operate = paired.role == Role::kOperator,
+                    .fresh = false};
+  return requests_.ask(asker, 0, request, now);
+}
+
 void Hub::show(const Layer& layer) {
   ShownLayer& shown = layers_[static_cast<std::size_t>(layer.name)];
   ++shown.number;
@@ -48,12 +57,27 @@ void Hub::turn(Instant now) {
   published_.update(link_.view());
   for (const Settled& settled : requests_.settled(now)) {
     const auto found = sessions_.find(settled.screen);
-    if (found != sessions_.end()) {
+    if (found != sessions_.end() && settled.number != 0) {
       found->second->answered(settled.number, settled.verdict);
     }
   }
+  say_what_changed();
   if (status_.composed == 0 || now - composed_at_ >= kStatusEvery) {
     compose(now);
+  }
+}
+
+void Hub::say_what_changed() {
+  if (view().link != said_link_) {
+    said_link_ = view().link;
+    said_(said_link_ == LinkState::kConnected ? "the controller is there"
+          : said_link_ == LinkState::kSilent  ? "the controller is silent"
+                                              : "no controller: " + link_.complaint());
+  }
+  if (controls_.holder() != said_holder_) {
+    said_holder_ = controls_.holder();
+    said_(said_holder_ ? "screen " + std::to_string(*said_holder_) + " holds the controls"
+                       : "nobody holds the controls");
   }
 }
 

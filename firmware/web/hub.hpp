@@ -4,6 +4,7 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -24,9 +25,12 @@ namespace ivo::firmware::web {
 
 class Hub {
  public:
-  static constexpr Duration kStatusEvery = std::chrono::milliseconds(45);  ///< at most 20 times a second, at 10 ms steps
+  static constexpr Duration kStatusEvery =
+      std::chrono::milliseconds(45);  ///< at most 20 times a second, at 10 ms steps
 
-  explicit Hub(std::string socket) : link_(std::move(socket)) {}
+  /// `said` takes one line for a person who watches the server.
+  Hub(std::string socket, std::function<void(const std::string&)> said)
+      : link_(std::move(socket)), said_(std::move(said)) {}
   Hub(const Hub&) = delete;
   Hub& operator=(const Hub&) = delete;
 
@@ -42,15 +46,19 @@ class Hub {
   [[nodiscard]] const std::string& complaint() const noexcept { return link_.complaint(); }
   [[nodiscard]] std::optional<Screen> operator_screen() const noexcept { return controls_.holder(); }
 
+  // For who asks over HTTP.
+  /// Whose screen holds the controls asks for that, without hearing an answer; the verdict, or none: it is on its way.
+  [[nodiscard]] std::optional<Verdict> ask(const Paired& paired, const Request& request, Instant now);
+
   // For sessions.
   /// The verdict, or none: answered() tells it.
   [[nodiscard]] std::optional<Verdict> ask(const Session& session, std::uint32_t number, const Request& request,
                                            Instant now);
   void show(const Layer& layer);
   struct Status {
-    std::string common;           ///< as status_json.hpp has it
-    std::uint64_t number = 0;     ///< of what is new in it: another number, another status
-    std::uint64_t composed = 0;   ///< grows with each text
+    std::string common;          ///< as status_json.hpp has it
+    std::uint64_t number = 0;    ///< of what is new in it: another number, another status
+    std::uint64_t composed = 0;  ///< grows with each text
   };
   [[nodiscard]] const Status& status() const noexcept { return status_; }
   struct ShownLayer {
@@ -72,8 +80,12 @@ class Hub {
   };
 
   void compose(Instant now);
+  void say_what_changed();
 
   ControllerLink link_;
+  std::function<void(const std::string&)> said_;
+  LinkState said_link_ = LinkState::kAbsent;
+  std::optional<Screen> said_holder_;
   Controls controls_;
   Refusals refusals_;
   Requests requests_{link_, controls_, refusals_};

@@ -18,7 +18,9 @@ void PageSession::hear(std::string_view message, bool binary, Instant now) {
   }
   if (heard.verdict != Verdict::kAccepted) {
     hub_.refusals().count(heard.verdict);
-    answered(heard.sequence, heard.verdict);
+    if (answers_.size() < kUnreadRefusals) {
+      answered(heard.sequence, heard.verdict);
+    }
     return;
   }
   if (std::holds_alternative<Beat>(heard.request)) {
@@ -29,9 +31,7 @@ void PageSession::hear(std::string_view message, bool binary, Instant now) {
   }
 }
 
-void PageSession::answered(std::uint32_t number, Verdict verdict) {
-  answers_.push_back(answer_text(number, verdict));
-}
+void PageSession::answered(std::uint32_t number, Verdict verdict) { answers_.push_back(answer_text(number, verdict)); }
 
 std::optional<Frame> PageSession::next(Instant now) {
   writing_status_ = false;

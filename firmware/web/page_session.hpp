@@ -17,6 +17,7 @@ class Hub;
 class PageSession final : public Session {
  public:
   static constexpr std::size_t kUnreadAnswers = 256;
+  static constexpr std::size_t kUnreadRefusals = 64;  ///< of messages without form or order; more are only counted
   static constexpr Duration kStatusAtLeastEvery = std::chrono::milliseconds(450);
 
   /// `hub` outlives this.

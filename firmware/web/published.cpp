@@ -35,9 +35,9 @@ void Published::update(const View& view) {
   for (std::size_t i = 0; i < messages_.size(); ++i) {
     const KnownDocument& known = view.documents[i];
     if (messages_[i].revision != known.revision) {
-      messages_[i] = {.revision = known.revision,
-                      .text = std::make_shared<const std::string>(
-                          message_of(static_cast<console::Document>(i + 1), known))};
+      messages_[i] = {
+          .revision = known.revision,
+          .text = std::make_shared<const std::string>(message_of(static_cast<console::Document>(i + 1), known))};
     }
   }
 }

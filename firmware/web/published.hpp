@@ -15,7 +15,7 @@ namespace ivo::firmware::web {
 class Published {
  public:
   struct Message {
-    std::uint32_t revision = 0;                ///< 0: it never came
+    std::uint32_t revision = 0;               ///< 0: it never came
     std::shared_ptr<const std::string> text;  ///< of the document, or that there is a new grid
   };
 

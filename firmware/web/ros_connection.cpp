@@ -37,11 +37,7 @@ std::uint32_t RosConnection::ask(const Request& request) {
 
 void RosConnection::show(const Layer& layer) { hub_.show(layer); }
 
-void RosConnection::answered(std::uint32_t number, Verdict verdict) {
-  if (number != 0) {
-    session_.answered(number, verdict);
-  }
-}
+void RosConnection::answered(std::uint32_t number, Verdict verdict) { session_.answered(number, verdict); }
 
 void RosConnection::tell_verdicts() {
   for (const auto& [number, verdict] : std::exchange(verdicts_, {})) {

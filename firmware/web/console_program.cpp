@@ -1,0 +1,55 @@
+#include "firmware/web/console_program.hpp"
+
+#include <string>
+#include <utility>
+
+#include "firmware/web/http_desk.hpp"
+#include "firmware/web/hub.hpp"
+#include "firmware/web/pairing_code.hpp"
+#include "firmware/web/site.hpp"
+
+namespace ivo::firmware::web {
+namespace {
+
+std::string place_text(const Listening& listening, int port) {
+  const bool six = listening.address.find(':') != std::string::npos;
+  return std::string(listening.certificate.empty() ? "http://" : "https://") +
+         (six ? "[" + listening.address + "]" : listening.address) + ":" + std::to_string(port) + "/";
+}
+
+}  // namespace
+
+Result<void> run_console(const ConsoleOptions& options, const std::atomic<bool>& stop, std::ostream& out) {
+  Result<TokenStore> tokens = TokenStore::open(options.state);
+  if (!tokens) {
+    return tokens.error();
+  }
+  if (options.new_token) {
+    const Result<std::string> token = tokens.value().add(*options.new_token, options.role);
+    if (!token) {
+      return token.error();
+    }
+    out << token.value() << '\n';
+    return {};
+  }
+  const Result<Site> site = Site::read(options.page, options.leaflet);
+  if (!site) {
+    return site.error();
+  }
+  const auto say = [&out](const std::string& line) { out << line << std::endl; };
+  PairingCode code;
+  Hub hub(options.socket, say);
+  HttpDesk desk(site.value(), hub, tokens.value(), code,
+                {.tls = !options.listening.certificate.empty(), .origins = options.origins}, say);
+  Result<Server> server = Server::listen(options.listening, hub, desk, say);
+  if (!server) {
+    return server.error();
+  }
+  say("listening at " + place_text(options.listening, server.value().port()));
+  say("the pairing code is " + code.digits());
+  server.value().run(stop);
+  say("ended");
+  return {};
+}
+
+}  // namespace ivo::firmware::web

@@ -1,0 +1,21 @@
+// What the server itself needs to know of a mission: of the controller's document.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ivo::firmware::web {
+
+struct MissionFacts {
+  int width_px = 0;
+  int height_px = 0;
+  double resolution_m = 0.0;
+  std::vector<bool> obstacle;       ///< by class
+  std::vector<std::string> agents;  ///< their names
+};
+
+/// None when it is no such document.
+[[nodiscard]] std::optional<MissionFacts> mission_facts(const std::string& document);
+
+}  // namespace ivo::firmware::web
