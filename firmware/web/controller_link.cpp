@@ -31,7 +31,7 @@ std::optional<Message> message_of(console::Kind kind, std::span<const std::byte>
 bool sound(const console::Status& status) {
   const auto finite = [](double number) { return std::isfinite(number); };
   return status.agents <= console::kAgents && status.fault.back() == '\0' &&
-         status.pause_cause <= console::PauseCause::kReplan && status.asks <= console::Asks::kClearing &&
+         status.pause_cause <= PauseCause::kReplan && status.asks <= console::Asks::kClearing &&
          finite(status.beat_age_s) && finite(status.expected_time_s) && finite(status.unseen_mass) &&
          finite(status.horizon_s) && finite(status.searched_mass) && finite(status.heading_rad) &&
          std::all_of(status.agent.begin(), status.agent.end(), [&](const console::AgentStatus& agent) {

@@ -26,8 +26,8 @@ std::vector<std::int8_t> occupancy_of(const std::string& map, const RosMission& 
   return values;
 }
 
-std::vector<std::int8_t> keepout_of(const std::string& map, const RosMission& mission,
-                                    const std::vector<RosArea>& areas) {
+std::vector<std::int8_t> keepout_grid_of(const std::string& map, const RosMission& mission,
+                                         const std::vector<RosArea>& areas) {
   std::vector<std::int8_t> values = occupancy_of(map, mission);
   std::vector<Polygon> no_go;
   for (const RosArea& area : areas) {

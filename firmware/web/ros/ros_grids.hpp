@@ -15,8 +15,8 @@ namespace ivo::firmware::web {
 [[nodiscard]] std::vector<std::int8_t> occupancy_of(const std::string& map, const RosMission& mission);
 
 /// The map's occupancy, and 100 too where a pixel's centre lies in a no-go area: a costmap filter mask of Nav2.
-[[nodiscard]] std::vector<std::int8_t> keepout_of(const std::string& map, const RosMission& mission,
-                                                  const std::vector<RosArea>& areas);
+[[nodiscard]] std::vector<std::int8_t> keepout_grid_of(const std::string& map, const RosMission& mission,
+                                                       const std::vector<RosArea>& areas);
 
 /// The masses of the cells. Empty when `probability` has another size than the mission says.
 [[nodiscard]] std::vector<float> masses_of(const std::string& probability, const RosMission& mission);

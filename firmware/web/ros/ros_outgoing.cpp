@@ -173,7 +173,7 @@ bool write_message(ValueWriter& writer, Outgoing what, std::optional<std::size_t
     case Outgoing::kNoGo:
       return write_pixels(
           writer, mission, stamp,
-          keepout_of(bytes_of(view, Document::kMap), mission, areas_of(bytes_of(view, Document::kAreas))));
+          keepout_grid_of(bytes_of(view, Document::kMap), mission, areas_of(bytes_of(view, Document::kAreas))));
     case Outgoing::kProbability:
     case Outgoing::kProbabilityMass:
       return write_cells(writer, what == Outgoing::kProbabilityMass, mission, stamp, masses());
