@@ -2,7 +2,7 @@
 import { by_id, make } from "./dom.js";
 import { agents_of } from "./judge.js";
 import { model } from "./model.js";
-import { duration, metres, percent, say, seconds } from "./words.js";
+import { percent, say, seconds } from "./words.js";
 
 let drawn = "";
 
@@ -15,12 +15,7 @@ function rows_of(plan, agents) {
     if (agent.kind !== "person") return;
     row(`preferred-${i}`, say("facts.preferred", { name: agent.name }), (each) => or_none(each?.agents?.[i]?.preferred_share, percent));
   });
-  agents.forEach((agent, i) => {
-    row(`length-${i}`, say("facts.length", { name: agent.name }), (each) =>
-      or_none(each?.agents?.[i], (path) => `${metres(path.length_m, 0)}, ${duration(path.duration_s)}`));
-  });
   row("gap", say("facts.gap"), (each) => or_none(each?.gap, percent));
-  row("unseen", say("facts.unseen"), (each) => or_none(each?.score?.unseen_mass, (value) => say("unit.percent", { value: (100 * value).toFixed(1) })));
   return rows;
 }
 

@@ -17,7 +17,7 @@ export const map = L.map("map", {
   tap: false,
   bounceAtZoomLimits: false,
 });
-map.setView([0, 0], 4);
+map.setView([0, 0], 4, { animate: false });
 
 // From the ground up; Leaflet's own panes for markers lie above them.
 for (const [name, height] of [["ground", 210], ["probability", 220], ["searched", 230], ["areas", 410], ["paths", 420],
@@ -55,10 +55,10 @@ export function fit_map(size) {
   if (shown === wanted) return;
   shown = wanted;
   const bounds = L.latLngBounds([0, 0], [size.height_m, size.width_m]);
-  map.setMaxBounds(bounds.pad(0.35));
   refit = () => map.fitBounds(bounds, { padding: [14, 14], animate: false });
   touched = false;
   refit();
+  map.setMaxBounds(bounds.pad(0.35));  // after it, or it pans there from elsewhere
 }
 
 let refit = () => {};

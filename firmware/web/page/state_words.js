@@ -52,5 +52,6 @@ export function advice_of(model) {
   const resumed = status.search.started;
   if (status.plan.accepted) return [resumed ? "now.paused" : "now.accepted", watching ? "now.watch_start" : resumed ? "now.go_on_text" : "now.accepted_text"];
   const title = status.plan.with_preferences ? "now.agree_with" : "now.agree_free";
-  return [title, watching ? "now.watch_agree" : "now.agree_text"];
+  if (watching) return [title, status.operator ? "now.watch_agree" : "now.free_agree"];
+  return [title, "now.agree_text"];
 }

@@ -44,7 +44,7 @@ export const words = {
   "state.no_consent": "The search has ended",
   "state.ended": "The search has ended",
 
-  "link.now": "Heard {age}",
+  "link.now": "Live, {age}",
   "link.old": "Last heard {age}",
   "operator.you": "You hold the controls",
   "operator.other": "{name} holds the controls",
@@ -102,6 +102,7 @@ export const words = {
   "now.paused": "The search is paused",
   "now.go_on_text": "Hold the green button to go on, or ask for another plan.",
   "now.watch_agree": "You are watching. Whoever holds the controls decides about this plan.",
+  "now.free_agree": "Take the controls to decide about this plan.",
   "now.watch_start": "You are watching. Whoever holds the controls starts the robot.",
   "now.search": "The search is on",
   "now.search_text": "{time} so far. {share} of the probability is searched.",
@@ -135,9 +136,7 @@ export const words = {
   "facts.before": "Before",
   "facts.et": "Expected time to find it",
   "facts.preferred": "{name}'s path in preferred areas",
-  "facts.length": "{name}'s path",
   "facts.gap": "Above the best that could be",
-  "facts.unseen": "Left unseen",
 
   "again.title": "The next plan will be asked",
   "again.replan": "Plan with areas",

@@ -44,7 +44,7 @@ export const words = {
   "state.no_consent": "La búsqueda ha terminado",
   "state.ended": "La búsqueda ha terminado",
 
-  "link.now": "Oído {age}",
+  "link.now": "En vivo, {age}",
   "link.old": "Último dato {age}",
   "operator.you": "Tienes el mando",
   "operator.other": "{name} tiene el mando",
@@ -102,6 +102,7 @@ export const words = {
   "now.paused": "La búsqueda está en pausa",
   "now.go_on_text": "Mantén pulsado el botón verde para seguir, o pide otro plan.",
   "now.watch_agree": "Estás mirando. Quien tiene el mando decide sobre este plan.",
+  "now.free_agree": "Toma el mando para decidir sobre este plan.",
   "now.watch_start": "Estás mirando. Quien tiene el mando pone en marcha el robot.",
   "now.search": "La búsqueda está en marcha",
   "now.search_text": "{time} hasta ahora. Ya se ha buscado el {share} de la probabilidad.",
@@ -135,9 +136,7 @@ export const words = {
   "facts.before": "Antes",
   "facts.et": "Tiempo esperado hasta encontrarlo",
   "facts.preferred": "Camino de {name} en zonas preferidas",
-  "facts.length": "Camino de {name}",
   "facts.gap": "Por encima del mejor posible",
-  "facts.unseen": "Queda sin ver",
 
   "again.title": "Al próximo plan se le pedirá",
   "again.replan": "Plan con zonas",
