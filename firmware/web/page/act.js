@@ -1,5 +1,5 @@
 // The one thing to do next, always at the same place beside Stop; and why it cannot be done.
-import { allow, by_id, on_press, set_text, show } from "./dom.js";
+import { allow, by_id, on_press, set_attribute, set_text, show } from "./dom.js";
 import { has_controller, is_old, is_operator, no_start_because, stage_of } from "./judge.js";
 import { make_hold } from "./hold.js";
 import { model } from "./model.js";
@@ -30,6 +30,7 @@ function next_act(now_ms) {
       return start_act(now_ms);
     case "search": return { id: "found", works: !old && has_controller(model), why: "" };
     case "fault": return { id: "clear-fault", works: !old && status.asks === "clearing", why: status.asks === "clearing" ? "" : say("now.fault_wait") };
+    case "end": return { id: null, works: false, why: say("act.end") };
     default: return { id: null, works: false, why: "" };
   }
 }
@@ -49,21 +50,33 @@ function watch_words() {
   return model.status.operator ? say("operator.other", { name: model.status.operator.name }) : say("control.free");
 }
 
+const kSettleMs = 600;
+let swapped_at_ms = -Infinity;
+
+// A button that has just taken another's place was not what the finger went for.
+function on_act(id, act) {
+  on_press(by_id(id), () => {
+    if (performance.now() - swapped_at_ms > kSettleMs) act();
+  });
+}
+
 export function show_act() {
   const { id, works, why } = next_act(performance.now());
+  if ((id ?? "") !== document.body.dataset.act) swapped_at_ms = performance.now();
   for (const each of kButtons) show(by_id(each), each === id);
   if (id !== null) allow(by_id(id), works);
   if (id === "take-control") set_text(by_id(id), say(model.status.operator ? "control.ask" : "control.take"));
   set_text(by_id("act-why"), why);
+  set_attribute(by_id("act"), "data-why", why === "" ? "no" : "yes");
   document.body.dataset.act = id ?? "";
   hold.tick();
 }
 
-on_press(by_id("accept"), () => tell("accept", { plan: model.status.plan.number }));
-on_press(by_id("enough"), () => tell("enough", { plan: model.status.plan.number }));
-on_press(by_id("clear-fault"), () => tell("clear_fault", { question: model.status.question }));
-on_press(by_id("take-control"), () => tell("control.request"));
-on_press(by_id("found"), () => {
+on_act("accept", () => tell("accept", { plan: model.status.plan.number }));
+on_act("enough", () => tell("enough", { plan: model.status.plan.number }));
+on_act("clear-fault", () => tell("clear_fault", { question: model.status.question }));
+on_act("take-control", () => tell("control.request"));
+on_act("found", () => {
   set_view({ tab: "search" });
   open_found();
 });

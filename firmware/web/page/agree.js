@@ -5,6 +5,7 @@ import { agents_of, is_operator, stage_of } from "./judge.js";
 import { model } from "./model.js";
 import { show_asked } from "./asked.js";
 import { show_facts } from "./facts.js";
+import { show_progress_line } from "./progress_line.js";
 import { tell } from "./tell.js";
 import { number, say } from "./words.js";
 
@@ -12,6 +13,7 @@ function show_progress() {
   const { mode, plan } = model.status ?? {};
   const planning = mode === "planning";
   show(by_id("progress"), planning);
+  show_progress_line();
   if (!planning) return;
   const bar = by_id("progress-bar");
   if (plan.preparing || !(plan.generations > 0)) bar.removeAttribute("value");
@@ -25,14 +27,16 @@ function show_pause() {
   const status = model.status;
   const stands = status?.search?.started && stage_of(model) !== "search" && stage_of(model) !== "end";
   const cause = status?.pause_cause ?? "none";
-  const shown = Boolean(stands) && cause !== "none";
+  const shown = Boolean(stands) && cause !== "none" && stage_of(model) !== "fault";
   show(by_id("pause"), shown);
   if (shown) set_text(by_id("pause-text"), say(`pause.${cause}`));
 }
 
 export function show_agree() {
   const stage = stage_of(model);
+  if (document.body.dataset.stage !== stage) by_id("page-search").scrollTop = 0;
   set_attribute(document.body, "data-stage", stage);
+  set_attribute(document.body, "data-started", model.status?.search?.started && stage !== "end" ? "yes" : "no");
   const [title, text] = advice_of(model);
   const values = {
     robot: agents_of(model)[0]?.name ?? "IVO",

@@ -57,7 +57,10 @@ function show_choice() {
     drawn_choice = now;
     by_id("purposes").replaceChildren(...offered.map((text) => make_choice(text, agents)));
   }
-  for (const input of by_id("purposes").querySelectorAll("input")) input.checked = input.value === view.purpose;
+  for (const input of by_id("purposes").querySelectorAll("input")) {
+    input.checked = input.value === view.purpose;
+    input.parentElement.classList.toggle("chosen", input.checked);
+  }
 }
 
 function make_choice(text, agents) {

@@ -81,13 +81,14 @@ export function show_areas() {
     const shape = shapes.get(area.slot);
     const polygon = held?.slot === area.slot ? held.polygon_m : area.polygon_m;
     const selected = view.selected === area.slot && view.tab === "areas";
-    const look = JSON.stringify([polygon, area.purpose, area.agent, selected]);
+    const calm = view.tab !== "areas";
+    const look = JSON.stringify([polygon, area.purpose, area.agent, selected, calm]);
     if (shape.look === look) continue;
     shape.look = look;
     shape.setLatLngs(corners(polygon));
     shape.setStyle({
       color: line_of(agents, area.purpose, area.agent), fillColor: hatch_of(agents, area.purpose, area.agent), weight: selected ? 5 : 3,
-      dashArray: area.purpose === "no_go" ? null : "2 7" });
+      fillOpacity: calm ? 0.6 : 1, dashArray: area.purpose === "no_go" ? null : "2 7" });
   }
   const chosen = areas.find((area) => area.slot === view.selected);
   const editable = chosen && view.tab === "areas" && view.tool === null && may_change_areas();

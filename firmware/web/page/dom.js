@@ -26,9 +26,14 @@ export function allowed(button) {
   return button.getAttribute("aria-disabled") !== "true";
 }
 
+/// A pointer must have gone down on this button too: what appears under a finger that is lifted was not meant.
 export function on_press(button, act) {
+  let pressed = false;
+  button.addEventListener("pointerdown", () => { pressed = true; });
   button.addEventListener("click", (event) => {
-    if (allowed(button)) act(event);
+    const meant = pressed || event.detail === 0;  // 0: a key or a screen reader
+    pressed = false;
+    if (meant && allowed(button)) act(event);
   });
 }
 

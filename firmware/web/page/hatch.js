@@ -7,7 +7,7 @@ const kEvery_px = 11;
 function pattern(id, style, crossed) {
   const lines = [make_svg("path", { d: `M0 0V${kEvery_px}`, stroke: style.line, "stroke-width": crossed ? 2.4 : 3, "stroke-opacity": crossed ? 0.8 : 0.5 })];
   if (crossed) lines.push(make_svg("path", { d: `M0 0H${kEvery_px}`, stroke: style.line, "stroke-width": 2.4, "stroke-opacity": 0.8 }));
-  const ground = make_svg("rect", { width: kEvery_px, height: kEvery_px, fill: crossed ? "#fff" : style.line, "fill-opacity": crossed ? 0.35 : 0.1 });
+  const ground = make_svg("rect", { width: kEvery_px, height: kEvery_px, fill: crossed ? "#fff" : style.line, "fill-opacity": crossed ? 0.35 : 0.07 });
   return make_svg("pattern", {
     id, width: kEvery_px, height: kEvery_px, patternUnits: "userSpaceOnUse", patternTransform: `rotate(${style.hatch_deg})` }, ground, ...lines);
 }

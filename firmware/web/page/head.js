@@ -2,9 +2,10 @@
 import { by_id, set_attribute, set_text, show } from "./dom.js";
 import { agents_of, data_age_s, has_controller, is_old, is_operator } from "./judge.js";
 import { state_words } from "./state_words.js";
-import { model } from "./model.js";
 import { choose_language, language_names, number, other_language, say } from "./words.js";
-import { changed } from "./model.js";
+import { changed, model } from "./model.js";
+
+const kLanguageButtons = ["language", "language-too", "pairing-language"];
 
 function age_words(age_s) {
   if (!Number.isFinite(age_s)) return say("age.never");
@@ -40,11 +41,15 @@ export function show_head() {
   set_attribute(document.body, "data-old", stale ? "yes" : "no");
   show(by_id("stale"), stale);
   if (stale) set_text(by_id("stale"), stale_words(now_ms));
-  set_text(by_id("language"), language_names[other_language()]);
-  set_attribute(by_id("language"), "lang", other_language());
+  for (const id of kLanguageButtons) {
+    set_text(by_id(id), language_names[other_language()]);
+    set_attribute(by_id(id), "lang", other_language());
+  }
 }
 
-by_id("language").addEventListener("click", () => {
-  choose_language(other_language());
-  changed();
-});
+for (const id of kLanguageButtons) {
+  by_id(id).addEventListener("click", () => {
+    choose_language(other_language());
+    changed();
+  });
+}

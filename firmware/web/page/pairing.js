@@ -1,9 +1,9 @@
 // The first screen of a device that the robot does not know: six digits, and a name for this screen.
-import { by_id, on_press, set_attribute, set_text, show } from "./dom.js";
-import { changed, model } from "./model.js";
+import { by_id, set_text, show } from "./dom.js";
+import { model } from "./model.js";
 import { connect } from "./socket.js";
 import { recall, remember } from "./memory.js";
-import { choose_language, language_names, other_language, say } from "./words.js";
+import { say } from "./words.js";
 
 let shown = false;
 
@@ -34,8 +34,6 @@ async function pair() {
 
 export function show_pairing() {
   const wanted = model.link === "unpaired" || (shown && model.link === "closed");
-  set_text(by_id("pairing-language"), language_names[other_language()]);
-  set_attribute(by_id("pairing-language"), "lang", other_language());
   if (wanted === shown) return;
   shown = wanted;
   show(by_id("pairing"), shown);
@@ -50,8 +48,4 @@ export function show_pairing() {
 by_id("pairing-form").addEventListener("submit", (event) => {
   event.preventDefault();
   pair();
-});
-on_press(by_id("pairing-language"), () => {
-  choose_language(other_language());
-  changed();
 });

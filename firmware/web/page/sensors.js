@@ -5,7 +5,7 @@ import { view } from "./view_state.js";
 
 const kOldAfter_s = 2;
 const kLooks = {
-  scan: { radius: 2.5, color: "#004a9e", fillColor: "#004a9e", weight: 0, fillOpacity: 0.9 },
+  scan: { radius: 1.8, color: "#004a9e", fillColor: "#004a9e", weight: 0, fillOpacity: 0.9 },
   people: { radius: 9, color: "#00703c", fillColor: "#fff", weight: 3, fillOpacity: 0.6 },
   robot_pose: { radius: 7, color: "#c4122a", fillColor: "#fff", weight: 3, fillOpacity: 0.6 },
 };
