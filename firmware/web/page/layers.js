@@ -39,8 +39,9 @@ function show_legend() {
 
 export function show_layers() {
   show(by_id("layers"), open);
+  set_attribute(document.body, "data-layers", open ? "open" : "closed");
   set_attribute(by_id("layers-button"), "aria-expanded", String(open));
-  show(by_id("layer-aerial-row"), model.documents.mission?.map.aerial === true);
+  show(by_id("grounds"), model.documents.mission?.map.aerial === true);
   if (view.layers.ground === "aerial" && model.documents.mission && !model.documents.mission.map.aerial) view.layers.ground = "map";
   if (open) show_legend();
 }

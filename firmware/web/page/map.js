@@ -1,13 +1,11 @@
 // The map: a plane of metres, x to the right, y up.
 import { by_id } from "./dom.js";
 
-const kZoomStep = 0.25;
-
 export const map = L.map("map", {
   crs: L.CRS.Simple,
   attributionControl: false,
   zoomControl: false,
-  zoomSnap: kZoomStep,
+  zoomSnap: 0,  // a map fits exactly
   zoomDelta: 0.5,
   wheelPxPerZoomLevel: 120,
   minZoom: -2,
