@@ -1,10 +1,11 @@
 // What the server says goes into the model; the model is shown. Nothing flows the other way but wishes (tell.js).
 import { by_id } from "./dom.js";
-import { fit_map } from "./map.js";
+import { fit_map, map } from "./map.js";
 import { is_old } from "./judge.js";
 import { keep_beating } from "./beats.js";
 import { keep_connected } from "./socket.js";
 import { keep_looking, model, watch } from "./model.js";
+import { regain_controls } from "./regain.js";
 import { say_page } from "./words.js";
 import { show_act } from "./act.js";
 import { show_agents } from "./agents.js";
@@ -20,7 +21,6 @@ import { show_layers } from "./layers.js";
 import { show_notice } from "./notices.js";
 import { show_pairing } from "./pairing.js";
 import { show_paths } from "./paths.js";
-import { map } from "./map.js";
 import { show_report } from "./report.js";
 import { show_search } from "./search.js";
 import { show_sensors } from "./sensors.js";
@@ -43,6 +43,7 @@ function show_all(views) {
 }
 
 watch(() => {
+  regain_controls();
   show_all(kViews);
   const mission = model.documents.mission;
   if (!mission) return;

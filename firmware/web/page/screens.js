@@ -2,6 +2,7 @@
 import { allow, by_id, make, on_press, set_text, show } from "./dom.js";
 import { is_operator } from "./judge.js";
 import { model } from "./model.js";
+import { note_held } from "./regain.js";
 import { tell } from "./tell.js";
 import { number, say } from "./words.js";
 
@@ -69,6 +70,8 @@ export function show_who() {
 }
 
 on_press(by_id("control-request"), () => tell("control.request"));
-on_press(by_id("control-release"), () => tell("control.release"));
+on_press(by_id("control-release"), async () => {
+  if (await tell("control.release")) note_held(false);
+});
 on_press(by_id("control-give"), () => tell("control.give"));
 on_press(by_id("control-keep"), () => tell("control.keep"));
