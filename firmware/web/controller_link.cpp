@@ -132,11 +132,11 @@ bool ControllerLink::hear_part(std::span<const std::byte> packet) {
     return false;
   }
   switch (parts_[number - 1].add(*part)) {
-    case DocumentAssembly::Outcome::kRefused:
+    case console::DocumentAssembly::Outcome::kRefused:
       return false;
-    case DocumentAssembly::Outcome::kMore:
+    case console::DocumentAssembly::Outcome::kMore:
       return true;
-    case DocumentAssembly::Outcome::kWhole:
+    case console::DocumentAssembly::Outcome::kWhole:
       break;
   }
   came_[number - 1] = true;

@@ -13,7 +13,7 @@
 
 #include "config/base/time.hpp"
 #include "firmware/console/console_messages.hpp"
-#include "firmware/web/document_assembly.hpp"
+#include "firmware/console/document_assembly.hpp"
 #include "firmware/web/request.hpp"
 #include "firmware/web/view.hpp"
 #include "hal/api/file_descriptor.hpp"
@@ -57,7 +57,7 @@ class ControllerLink {
   std::uint32_t said_ = 0;
   Instant try_at_{};
   View view_;
-  std::array<DocumentAssembly, console::kDocuments> parts_;
+  std::array<console::DocumentAssembly, console::kDocuments> parts_;
   std::array<bool, console::kDocuments> came_{};  // over this connection
   bool known_anew_ = false;                       // a status has come over this connection
   std::uint32_t revisions_ = 0;
