@@ -14,6 +14,7 @@ from mission_files import BUILD_DIR, SOURCE_DIR
 
 PACKAGING = os.path.join(SOURCE_DIR, "toolchain", "packaging")
 UNIT = "/usr/lib/systemd/system/ivo-controller.service"
+CONSOLE_UNIT = "/usr/lib/systemd/system/ivo-console.service"
 CONFFILES = {
     "/etc/ivo/classes.toml", "/etc/ivo/controller.env", "/etc/ivo/robot.toml",
     "/etc/systemd/network/60-ivo-can0.link", "/etc/systemd/network/60-ivo-can0.network",
@@ -87,7 +88,7 @@ class Packages(unittest.TestCase):
         scratch = tempfile.TemporaryDirectory(prefix="ivo-package.", dir="/var/tmp")
         cls.addClassCleanup(scratch.cleanup)
         cls.scratch = scratch.name
-        cls.controller, cls.tools = cls.packages = make_packages(os.path.join(cls.scratch, "first"), "1700000000")
+        cls.console, cls.controller, cls.tools = cls.packages = make_packages(os.path.join(cls.scratch, "first"), "1700000000")
         cls.bare = os.path.join(cls.scratch, "bare")
         said_by(os.path.join(PACKAGING, "scratch_root"), cls.bare, "systemd", *("@" + package for package in cls.packages))
         with open(os.path.join(cls.bare, "proc", "cpuinfo"), "w", encoding="utf-8") as file:
@@ -118,7 +119,7 @@ class Packages(unittest.TestCase):
         return root
 
     def test_say_what_they_are_and_need(self):
-        self.assertEqual([field(package, "Package") for package in self.packages], ["ivo-controller", "ivo-tools"])
+        self.assertEqual([field(package, "Package") for package in self.packages], ["ivo-console", "ivo-controller", "ivo-tools"])
         with open(os.path.join(PACKAGING, "changelog"), encoding="utf-8") as file:
             version = re.match(r"ivo \((.*?)\)", file.readline()).group(1)
         for package in self.packages:
@@ -129,6 +130,9 @@ class Packages(unittest.TestCase):
         for library in ("libcairo2", "libccd2", "libgpiod2", "libpng16-16", "adduser"):
             self.assertIn(library, field(self.controller, "Depends"))
         self.assertNotIn("libcairo2", field(self.tools, "Depends"))
+        for name in ("ivo-controller", "libjs-leaflet", "libwebsockets17"):
+            self.assertIn(name, field(self.console, "Depends"))
+        self.assertNotIn("libcairo2", field(self.console, "Depends"), "the page's server draws nothing")
 
     def test_hold_what_a_robot_needs_and_no_mission(self):
         listed = said_by("dpkg-deb", "-c", self.controller)
@@ -142,6 +146,20 @@ class Packages(unittest.TestCase):
                 self.assertFalse(path.endswith("/etc/ivo/mission.toml"), "a mission of the package's own would let the robot move")
             self.assertRegex(said_by("dpkg-deb", "-c", package), r"/usr/share/doc/ivo-\w+/copyright\n")
         self.assertEqual(set(said_by("dpkg-deb", "-I", self.controller, "conffiles").split()), CONFFILES)
+        self.assertEqual(said_by("dpkg-deb", "-I", self.console, "conffiles").split(), ["/etc/ivo/console.env"])
+
+    def test_the_console_holds_its_page(self):
+        root = self.installed()
+        page = os.path.join(SOURCE_DIR, "firmware", "web", "page")
+        shipped = root + "/usr/share/ivo-console/web"
+        self.assertEqual(set(os.listdir(shipped)) | {"README.md"}, set(os.listdir(page)))
+        self.assertTrue(os.path.exists(root + "/usr/share/javascript/leaflet/leaflet.js"))
+        self.assertIn("--new-token", self.did(root, "ivo-console", "--help"))
+        # It finds both where they are installed, and a token is all that it leaves behind.
+        said = self.did(root, "ivo-console", "--state", "/tmp/state", "--new-token", "foxglove", "--role", "viewer")
+        self.assertRegex(said, r"[0-9a-zA-Z_-]{32}")
+        self.assertEqual(os.listdir(root + "/tmp/state"), ["tokens"])
+        self.assertEqual(os.stat(root + "/tmp/state/tokens").st_mode & 0o777, 0o600)
 
     def test_the_same_build_makes_the_same_bytes(self):
         again = make_packages(os.path.join(self.scratch, "again"), "1700000000")
@@ -188,8 +206,9 @@ class Packages(unittest.TestCase):
         root = self.installed()
         self.assertRegex(self.did(root, "getent", "passwd", "ivo"), r"^ivo:x:\d+:\d+:[^:]*:/var/lib/ivo:/usr/sbin/nologin\n$")
         self.assertEqual(self.inside(root, "systemctl", "is-enabled", "ivo-controller")[1], "disabled\n")
-        self.did(root, "systemctl", "preset", "ivo-controller")
-        self.assertEqual(self.inside(root, "systemctl", "is-enabled", "ivo-controller")[1], "disabled\n")
+        self.did(root, "systemctl", "preset", "ivo-controller", "ivo-console")
+        for service in ("ivo-controller", "ivo-console"):
+            self.assertEqual(self.inside(root, "systemctl", "is-enabled", service)[1], "disabled\n")
         self.assertFalse(os.path.exists(root + "/etc/ivo/mission.toml"))
         self.assertFalse(os.path.exists(root + "/var/lib/ivo"))
         self.assertEqual(self.did(root, "dpkg", "--audit"), "")
@@ -237,14 +256,16 @@ class Packages(unittest.TestCase):
         root = self.root()
         before = everything(root)
         self.did(root, "dpkg", "-i", *("/packages/" + os.path.basename(package) for package in self.packages))
-        self.did(root, "systemctl", "enable", "ivo-controller")
+        self.did(root, "systemctl", "enable", "ivo-controller", "ivo-console")
         os.makedirs(root + "/var/lib/ivo/search")
-        self.did(root, "dpkg", "-r", "ivo-tools", "ivo-controller")
+        os.makedirs(root + "/var/lib/private/ivo-console")
+        self.did(root, "dpkg", "-r", "ivo-tools", "ivo-console", "ivo-controller")
         left = set(everything(root)) - set(before)
-        self.assertEqual({path for path in left if not path.startswith("/etc/")}, {"/var/lib/ivo", "/var/lib/ivo/search"})
-        self.assertTrue(CONFFILES <= left)
+        self.assertEqual({path for path in left if not path.startswith("/etc/")}, {"/var/lib/ivo", "/var/lib/ivo/search", "/var/lib/private", "/var/lib/private/ivo-console"})
+        self.assertTrue(CONFFILES | {"/etc/ivo/console.env"} <= left)
         self.assertFalse([path for path in left if path.endswith(".service")], "a removed service stays enabled")
-        self.did(root, "dpkg", "-P", "ivo-tools", "ivo-controller")
+        self.did(root, "dpkg", "-P", "ivo-tools", "ivo-console", "ivo-controller")
+        os.rmdir(root + "/var/lib/private")
         after = everything(root)
         of_users = {"/etc/passwd", "/etc/passwd-", "/etc/group", "/etc/group-", "/etc/shadow", "/etc/shadow-", "/etc/gshadow", "/etc/gshadow-",
                     "/etc/.pwd.lock", "/etc/subuid", "/etc/subgid", "/etc/subuid-", "/etc/subgid-"}
@@ -253,19 +274,21 @@ class Packages(unittest.TestCase):
         # Again from there: the user that stayed is taken as it is.
         self.did(root, "dpkg", "-i", "/packages/" + os.path.basename(self.controller))
 
-    def test_the_unit_is_one_that_systemd_accepts(self):
+    def test_the_units_are_such_as_systemd_accepts(self):
         root = self.installed()
-        self.assertEqual(self.did(root, "systemd-analyze", "verify", UNIT), "")
+        for unit in (UNIT, CONSOLE_UNIT):
+            self.assertEqual(self.did(root, "systemd-analyze", "verify", unit), "")
         with open(root + UNIT, "a", encoding="utf-8") as file:
             file.write("[Service]\nNoSuchSetting=yes\n")
         self.assertIn("NoSuchSetting", "".join(self.inside(root, "systemd-analyze", "verify", UNIT)[1:]), "the check itself")
 
-    def test_the_unit_is_shut_in(self):
+    def test_the_units_are_shut_in(self):
         root = self.installed()
-        said = self.did(root, "systemd-analyze", "--no-pager", "security", "--offline=true", UNIT)
-        exposure = float(re.search(r"Overall exposure level for \S+: (\d+\.\d+)", said).group(1))
-        self.assertLess(exposure, EXPOSURE_LIMIT, said)
-        print(f"exposure of ivo-controller.service: {exposure}")
+        for unit in (UNIT, CONSOLE_UNIT):
+            said = self.did(root, "systemd-analyze", "--no-pager", "security", "--offline=true", unit)
+            exposure = float(re.search(r"Overall exposure level for \S+: (\d+\.\d+)", said).group(1))
+            self.assertLess(exposure, EXPOSURE_LIMIT, said)
+            print(f"exposure of {os.path.basename(unit)}: {exposure}")
 
     def test_the_unit_says_what_it_promises(self):
         with open(os.path.join(PACKAGING, "controller", "ivo-controller.service"), encoding="utf-8") as file:
@@ -284,6 +307,17 @@ class Packages(unittest.TestCase):
         for option in re.findall(r"--[a-z-]+", command):
             self.assertIn(option, known)
         self.assertNotIn("--yes", command)
+
+    def test_the_options_that_the_consoles_unit_gives_are_options_of_its_program(self):
+        known = said_by(os.path.join(BUILD_DIR, "ivo-console"), "--help")
+        text = ""
+        for name in ("ivo-console.service", "console.env"):
+            with open(os.path.join(PACKAGING, "console", name), encoding="utf-8") as file:
+                text += file.read()
+        given = set(re.findall(r"(?<![\w-])--(?!help)[a-z-]+", text))
+        self.assertTrue({"--socket", "--state", "--listen"} <= given)
+        for option in given:
+            self.assertIn(f"  {option} ", known)
 
 
 if __name__ == "__main__":

@@ -27,6 +27,15 @@ install(DIRECTORY config/eds config/schemas DESTINATION usr/share/ivo ${controll
 install(FILES ${here}/controller/README.Debian DESTINATION usr/share/doc/ivo-controller ${controller})
 install(FILES ${here}/controller/watchdog.conf DESTINATION usr/share/doc/ivo-controller/examples ${controller})
 
+# ivo-console: the page, for who has a screen.
+set(console COMPONENT console)
+install(TARGETS ivo-console DESTINATION usr/bin ${console})
+install(DIRECTORY firmware/web/page/ DESTINATION usr/share/ivo-console/web ${console} PATTERN README.md EXCLUDE)
+install(FILES ${here}/console/ivo-console.service DESTINATION usr/lib/systemd/system ${console})
+install(FILES ${here}/console/60-ivo-console.preset DESTINATION usr/lib/systemd/system-preset ${console})
+install(FILES ${here}/console/console.env DESTINATION etc/ivo ${console})
+install(FILES ${here}/console/README.Debian firmware/web/protocol.md DESTINATION usr/share/doc/ivo-console ${console})
+
 # ivo-tools: for the desk and for whoever puts drives on a base.
 set(tools COMPONENT tools)
 install(TARGETS ivo-drives DESTINATION usr/bin ${tools})
@@ -39,7 +48,7 @@ install(DIRECTORY config/missions config/maps config/robots DESTINATION usr/shar
 install(FILES config/classes.toml DESTINATION usr/share/ivo ${tools})
 
 # Each package says what it is allowed to be used for, and what has changed.
-foreach(component controller tools)
+foreach(component controller console tools)
   install(FILES ${here}/copyright DESTINATION usr/share/doc/ivo-${component} COMPONENT ${component})
   install(CODE "execute_process(COMMAND gzip -9nc ${here}/changelog COMMAND_ERROR_IS_FATAL ANY
                   OUTPUT_FILE \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/usr/share/doc/ivo-${component}/changelog.gz\")"
@@ -59,7 +68,7 @@ set(CPACK_PACKAGE_NAME ivo)
 set(CPACK_PACKAGE_VERSION ${IVO_PACKAGE_VERSION})
 set(CPACK_PACKAGE_CONTACT "IVO maintainers <maintainers@ivo.invalid>")
 set(CPACK_PACKAGING_INSTALL_PREFIX "/")
-set(CPACK_COMPONENTS_ALL controller tools)
+set(CPACK_COMPONENTS_ALL controller console tools)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_THREADS 1)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
@@ -91,6 +100,22 @@ CANopen bus at 500 Hz.
 .
 Comes with a systemd service that is not enabled and does not start before there is a mission in
 /etc/ivo/mission.toml: nothing moves until the robot is configured.")
+
+set(CPACK_DEBIAN_CONSOLE_PACKAGE_NAME ivo-console)
+set(CPACK_DEBIAN_CONSOLE_PACKAGE_SECTION electronics)
+# The socket is the controller's; Leaflet draws the map.
+set(CPACK_DEBIAN_CONSOLE_PACKAGE_DEPENDS "ivo-controller, libjs-leaflet")
+set(CPACK_DEBIAN_CONSOLE_PACKAGE_RECOMMENDS systemd)
+set(CPACK_DEBIAN_CONSOLE_PACKAGE_CONTROL_EXTRA
+    "${PROJECT_BINARY_DIR}/packaging/preinst;${here}/console/postinst;${here}/console/prerm;${here}/console/postrm;${here}/console/conffiles"
+)
+set(CPACK_COMPONENT_CONSOLE_DESCRIPTION
+    "page and ROS port of the IVO search controller
+A page on which people draw areas, agree with the robot on a plan, set it off and stop it, from any tablet or phone near
+it, without internet; and a port for ROS tools that speak rosbridge v2.
+.
+Runs in a process of its own that may die without the controller noticing. Comes with a systemd service that is not
+enabled.")
 
 set(CPACK_DEBIAN_TOOLS_PACKAGE_NAME ivo-tools)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SECTION electronics)
