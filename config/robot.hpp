@@ -79,6 +79,8 @@ struct LoopParameters {
   int latch_at = 5;          ///< ditto: a fault, which only an operator clears
   int priority = 80;         ///< SCHED_FIFO, 1 to 99
   std::optional<int> cpu{};  ///< that the thread is pinned to; none: wherever the process may run
+  /// Whoever set the robot off from a page is not heard for so long: it ramps down and stands.
+  Duration beat_timeout = std::chrono::seconds(2);
   friend bool operator==(const LoopParameters&, const LoopParameters&) = default;
 };
 

@@ -16,6 +16,12 @@ class Latest {
   /// Writer only.
   void write(const T& value) noexcept {
     slots_[writing_] = value;
+    publish();
+  }
+  /// Writer only: a value too large to be made elsewhere is made here, over an old one; nobody sees it before
+  /// publish().
+  [[nodiscard]] T& draft() noexcept { return slots_[writing_]; }
+  void publish() noexcept {
     const std::uint32_t previous = shared_.exchange(writing_ | kFresh, std::memory_order_acq_rel);
     writing_ = previous & kIndex;
   }

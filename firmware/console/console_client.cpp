@@ -57,9 +57,29 @@ Result<Status> ConsoleClient::status() {
   }
 }
 
-Result<Verdict> ConsoleClient::command(Kind kind, std::uint32_t question) {
-  const Command command{.header = {.kind = kind, .size = sizeof(Command), .sequence = ++said_}, .question = question};
-  if (::send(socket_.get(), &command, sizeof(command), MSG_NOSIGNAL) != sizeof(command)) {
+Result<std::string> ConsoleClient::document(Document document) {
+  const std::optional<std::string>& whole = documents_[place_of(document)];
+  const Clock::time_point until = Clock::now() + patience_;
+  while (!whole) {
+    if (const Result<Heard> heard = hear(until); !heard) {
+      return heard.error();
+    }
+  }
+  return *whole;
+}
+
+Result<Verdict> ConsoleClient::command(Kind kind, std::uint32_t question, std::uint32_t argument) {
+  return say(Command{.header = {}, .question = question, .argument = argument}, kind);
+}
+
+Result<Verdict> ConsoleClient::put(AreaCommand area) { return say(area, Kind::kPutArea); }
+
+Result<Verdict> ConsoleClient::report(PoseCommand pose) { return say(pose, Kind::kPose); }
+
+template <class Message>
+Result<Verdict> ConsoleClient::say(Message message, Kind kind) {
+  message.header = {.kind = kind, .size = sizeof(Message), .sequence = ++said_};
+  if (::send(socket_.get(), &message, sizeof(message), MSG_NOSIGNAL) != sizeof(message)) {
     return Error{path_ + ": the controller does not listen any more: " + std::strerror(errno)};
   }
   const Clock::time_point until = Clock::now() + patience_;
@@ -74,6 +94,17 @@ Result<Verdict> ConsoleClient::command(Kind kind, std::uint32_t question) {
   }
 }
 
+void ConsoleClient::gather(const DocumentPart& part) {
+  const auto number = static_cast<std::size_t>(part.document);
+  if (number < 1 || number > kDocuments) {
+    return;
+  }
+  DocumentAssembly& parts = parts_[number - 1];
+  if (parts.add(part) == DocumentAssembly::Outcome::kWhole) {
+    documents_[number - 1] = parts.take();
+  }
+}
+
 Result<ConsoleClient::Heard> ConsoleClient::hear(Clock::time_point until) {
   const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now());
   pollfd input{.fd = socket_.get(), .events = POLLIN, .revents = 0};
@@ -81,7 +112,7 @@ Result<ConsoleClient::Heard> ConsoleClient::hear(Clock::time_point until) {
     return Error{path_ + ": the controller is silent; expected a status " + std::to_string(kStatusPerSecond) +
                  " times a second"};
   }
-  std::array<std::byte, sizeof(Status)> packet{};
+  std::array<std::byte, sizeof(DocumentPart)> packet{};
   const ssize_t size = ::recv(socket_.get(), packet.data(), packet.size(), MSG_TRUNC);
   if (size <= 0) {
     return Error{path_ + ": the controller has ended"};
@@ -89,6 +120,10 @@ Result<ConsoleClient::Heard> ConsoleClient::hear(Clock::time_point until) {
   Heard heard;
   heard.status = read_as<Status>(Kind::kStatus, packet.data(), static_cast<std::size_t>(size));
   heard.answer = read_as<Answer>(Kind::kAnswer, packet.data(), static_cast<std::size_t>(size));
+  if (const auto part = read_as<DocumentPart>(Kind::kDocumentPart, packet.data(), static_cast<std::size_t>(size))) {
+    gather(*part);
+    return heard;
+  }
   if (!heard.status && !heard.answer) {
     return Error{path_ + ": who listens there does not speak as this program does; expected version " +
                  std::to_string(kVersion) + " of the console's messages"};

@@ -2,12 +2,15 @@
 // time.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <optional>
 #include <string>
 
 #include "config/base/result.hpp"
 #include "firmware/console/console_messages.hpp"
+#include "firmware/console/document_assembly.hpp"
+#include "firmware/console/document_shelf.hpp"
 #include "hal/api/file_descriptor.hpp"
 
 namespace ivo::firmware::console {
@@ -24,8 +27,13 @@ class ConsoleClient {
   /// The next status; fails when none comes while patience lasts, when the controller goes, or says what we do not
   /// understand.
   [[nodiscard]] Result<Status> status();
+  /// The document as it was last heard; waits for it where it was not heard yet, and fails as status() does.
+  [[nodiscard]] Result<std::string> document(Document document);
   /// Says it and waits for its answer; fails as status() does.
-  [[nodiscard]] Result<Verdict> command(Kind kind, std::uint32_t question);
+  [[nodiscard]] Result<Verdict> command(Kind kind, std::uint32_t question, std::uint32_t argument = 0);
+  /// The same; header.kind is filled in, the rest of the header is ours.
+  [[nodiscard]] Result<Verdict> put(AreaCommand area);
+  [[nodiscard]] Result<Verdict> report(PoseCommand pose);
 
  private:
   ConsoleClient(std::string path, hal::FileDescriptor socket, std::chrono::seconds patience)
@@ -36,11 +44,16 @@ class ConsoleClient {
     std::optional<Answer> answer;
   };
   [[nodiscard]] Result<Heard> hear(std::chrono::steady_clock::time_point until);
+  template <class Message>
+  [[nodiscard]] Result<Verdict> say(Message message, Kind kind);
+  void gather(const DocumentPart& part);
 
   std::string path_;
   hal::FileDescriptor socket_;
   std::chrono::seconds patience_;
   std::uint32_t said_ = 0;
+  std::array<DocumentAssembly, kDocuments> parts_;
+  std::array<std::optional<std::string>, kDocuments> documents_;
 };
 
 }  // namespace ivo::firmware::console

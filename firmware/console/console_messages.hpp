@@ -172,10 +172,7 @@ struct AgentStatus {
   double report_age_s = -1.0;    ///< since it was last reported; negative: never
 };
 
-/// Why the robot stands though the search goes on.
-enum class PauseCause : std::uint8_t { kNone, kAsked, kBeatLost, kReplan };
-
-/// The enumerations are the controller's own: Mode, SearchState, StopCause, drivers::GroupState,
+/// The enumerations are the controller's own: Mode, SearchState, StopCause, PauseCause, drivers::GroupState,
 /// drivers::DriveFaultReason, hal::BusState.
 struct Status {
   Header header;
@@ -205,9 +202,9 @@ struct Status {
   std::uint8_t accepted = 0;          ///< somebody has accepted the plan `plan_number`
   std::uint8_t preparing = 0;         ///< tables for a plan are being made; it shows no progress yet
   std::uint8_t with_preferences = 0;  ///< the plan `plan_number` heeds preferred areas
-  PauseCause pause_cause{};           ///< why it stands, or stood last
+  std::uint8_t pause_cause = 0;       ///< why it stands, or stood last
   std::uint8_t watched = 0;           ///< consent counts only while kBeat comes
-  std::array<std::uint8_t, 7> zero{};
+  std::array<std::uint8_t, 11> zero{};
   double beat_age_s = -1.0;  ///< since the last kBeat; negative: never
 
   // The planner.

@@ -18,9 +18,13 @@ namespace {
 
 using std::chrono_literals::operator""ms;
 
-constexpr int kMessagesPerTurn = 64;    // of one client
-constexpr auto kBetweenTurns = 5ms;     // so a flood costs a part of a processor, and waits at its sender
-constexpr int kUnreadStatuses = 8192;   // bytes at a client that does not read: it hears news, not a backlog
+constexpr int kMessagesPerTurn = 64;     // of one client
+constexpr auto kBetweenTurns = 5ms;      // so a flood costs a part of a processor, and waits at its sender
+constexpr int kUnreadStatuses = 32768;   // bytes at a client that does not read: it hears news, not a backlog
+constexpr int kUnreadDocuments = 24576;  // a document that is not read does not keep statuses back
+constexpr int kPartsPerTurn = 4;         // of documents, to one client
+constexpr auto kBetweenParts = 2ms;
+constexpr auto kLastWords = 500ms;
 constexpr int kUnreadBytes = 131'072;   // answers have room beyond it
 constexpr std::size_t kLongest = 2048;  // bytes read of a packet; what is longer is refused by its size
 constexpr auto kStatusEvery = std::chrono::nanoseconds(std::chrono::seconds(1)) / kStatusPerSecond;
@@ -44,9 +48,9 @@ std::thread started_without_signals(auto work) {
 
 // What a client has not read yet leaves room for answers: an old status is worth less than the word that a stop was
 // heard.
-bool keeps_up(int socket) {
+bool keeps_up(int socket, int most) {
   int unread = 0;
-  return ioctl(socket, SIOCOUTQ, &unread) == 0 && unread < kUnreadStatuses;
+  return ioctl(socket, SIOCOUTQ, &unread) == 0 && unread < most;
 }
 
 // By now: one that went since the last look reads like one that sends empty packets.
@@ -72,6 +76,7 @@ void ConsoleSocket::close() {
   thread_.join();
   for (Client& client : clients_) {
     if (client.socket.valid()) {
+      finish_documents(client);
       tell(client);
     }
     client.socket.close();
@@ -121,6 +126,9 @@ void ConsoleSocket::serve_turn_by_turn() {
     for (Client& client : clients_) {
       if (client.socket.valid() && Clock::now() >= client.status_due) {
         tell(client);
+      }
+      if (client.socket.valid()) {
+        send_documents(client);
       }
     }
     if (heard) {
@@ -194,7 +202,7 @@ void ConsoleSocket::tell(Client& client) {
   status.answers_dropped = counters_.answers_dropped;
   status.statuses_dropped = counters_.statuses_dropped;
   status.clients = clients_here();
-  if (keeps_up(client.socket.get()) && sent_whole(client.socket.get(), status)) {
+  if (keeps_up(client.socket.get(), kUnreadStatuses) && sent_whole(client.socket.get(), status)) {
     ++client.sent;
   } else {
     ++counters_.statuses_dropped;
@@ -202,11 +210,38 @@ void ConsoleSocket::tell(Client& client) {
   client.status_due = Clock::now() + kStatusEvery;
 }
 
+// The report, above all. A client that does not read keeps the run from ending for a moment, and no longer.
+void ConsoleSocket::finish_documents(Client& client) {
+  const Clock::time_point until = Clock::now() + kLastWords;
+  for (send_documents(client); client.documents_due && Clock::now() < until; send_documents(client)) {
+    std::this_thread::sleep_for(kBetweenParts);
+  }
+}
+
+void ConsoleSocket::send_documents(Client& client) {
+  const DocumentShelf& shelf = std::as_const(desk_).documents();
+  for (int turn = 0; turn < kPartsPerTurn; ++turn) {
+    const DocumentPart* const part = client.documents.next(shelf);
+    client.documents_due = part != nullptr;
+    if (part == nullptr || !keeps_up(client.socket.get(), kUnreadDocuments)) {
+      return;
+    }
+    DocumentPart numbered = *part;
+    numbered.header.sequence = client.sent + 1;
+    if (!sent_whole(client.socket.get(), numbered)) {
+      return;
+    }
+    ++client.sent;
+    client.documents.sent();
+  }
+}
+
 int ConsoleSocket::wait_ms() const {
   Clock::time_point due = Clock::time_point::max();
   for (const Client& client : clients_) {
     if (client.socket.valid()) {
       due = std::min(due, client.status_due);
+      due = client.documents_due ? std::min<Clock::time_point>(due, Clock::now() + kBetweenParts) : due;
     }
   }
   if (due == Clock::time_point::max()) {

@@ -10,6 +10,7 @@
 #include "firmware/console/command_check.hpp"
 #include "firmware/console/console_desk.hpp"
 #include "firmware/console/console_messages.hpp"
+#include "firmware/console/document_sender.hpp"
 #include "firmware/console/socket_path.hpp"
 #include "hal/api/file_descriptor.hpp"
 
@@ -43,6 +44,8 @@ class ConsoleSocket {
     CommandCheck check;
     std::uint32_t sent = 0;  // our own sequence
     Clock::time_point status_due{};
+    DocumentSender documents;
+    bool documents_due = false;
   };
 
   void serve() noexcept;
@@ -51,6 +54,8 @@ class ConsoleSocket {
   void hear(Client& client);
   void answer(Client& client, std::uint32_t of_sequence, Verdict verdict);
   void tell(Client& client);
+  void send_documents(Client& client);
+  void finish_documents(Client& client);
   [[nodiscard]] int wait_ms() const;
   [[nodiscard]] std::uint32_t clients_here() const;
 

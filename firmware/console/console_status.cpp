@@ -64,12 +64,21 @@ Status status_of(const LoopStatus& loop, int agents) {
   }
   status.search_time_ns = loop.search_time.count();
   status.heading_rad = loop.robot.heading_rad;
+  status.plan_number = loop.plan_number;
+  status.preparing = as_byte(loop.preparing);
+  status.pause_cause = number_of(loop.pause_cause);
+  status.watched = as_byte(loop.watched);
+  status.beat_age_s = loop.beat_age ? seconds(*loop.beat_age) : -1.0;
   for (std::size_t i = 0; i < std::min(loop.tracks.size(), static_cast<std::size_t>(agents)); ++i) {
     const AgentTrack& track = loop.tracks[i];
+    const std::optional<Duration>& age = loop.report_age[i];
     status.agent[i] = {.x_m = track.position.x_m,
                        .y_m = track.position.y_m,
                        .moved_m = track.moved_m,
-                       .path_ended = as_byte(track.path_ended)};
+                       .left_m = i == 0 ? loop.distance_left_m : 0.0,
+                       .path_ended = as_byte(track.path_ended),
+                       .reported = as_byte(age.has_value()),
+                       .report_age_s = age ? seconds(*age) : -1.0};
   }
 
   const LoopCounters& counters = loop.counters;

@@ -1,5 +1,6 @@
 #include "firmware/files/map_file.hpp"
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -73,6 +74,28 @@ Result<std::vector<SemanticClass>> classify(const ColourImage& image, const Clas
   return classes;
 }
 
+// It is shown stretched over the map: of another shape it would lie.
+Result<void> read_aerial(const std::string& path, MapFile& map) {
+  const Result<ColourImage> image = read_colours(path);
+  if (!image) {
+    return image.error();
+  }
+  const double shape = static_cast<double>(image.value().width_px) / image.value().height_px;
+  const double expected = static_cast<double>(map.width_px) / map.height_px;
+  if (std::abs(shape / expected - 1) > 0.02) {
+    return Error{path + ": is " + std::to_string(image.value().width_px) + " x " +
+                 std::to_string(image.value().height_px) + " pixels; expected the shape of the map, " +
+                 std::to_string(map.width_px) + " x " + std::to_string(map.height_px)};
+  }
+  Result<std::string> bytes = read_file(path);
+  if (!bytes) {
+    return bytes.error();
+  }
+  map.aerial_path = path;
+  map.aerial = std::move(bytes).value();
+  return {};
+}
+
 }  // namespace
 
 planner::SegmentedMap MapFile::view() const { return {pixels, width_px, height_px, resolution_m, classes}; }
@@ -91,6 +114,7 @@ Result<MapFile> read_map(const std::string& path) {
   map.image_path = beside(path, root.required("image").text());
   map.resolution_m = root.required("resolution_m").number({0.001, 100.0, "metres a pixel"});
   const std::string classes = root.optional("classes").text();
+  const std::string aerial = root.optional("aerial").text();
   const Result<void> finish = toml.value().finish();
   if (!finish) {
     return finish.error();
@@ -113,6 +137,11 @@ Result<MapFile> read_map(const std::string& path) {
     return pixels.error();
   }
   map.pixels = std::move(pixels).value();
+  if (!aerial.empty()) {
+    if (const Result<void> read = read_aerial(beside(path, aerial), map); !read) {
+      return toml.value().lines().at("aerial", read.error().message);
+    }
+  }
   return map;
 }
 

@@ -16,6 +16,8 @@ struct MapFile {
   std::string path;
   std::string image_path;
   std::string classes_path;  ///< of the class table; empty: the built-in one
+  std::string aerial_path;   ///< the same ground as seen from above, for people; empty: there is none
+  std::string aerial;        ///< the PNG at aerial_path, whole
   int width_px = 0;
   int height_px = 0;
   double resolution_m = 0.0;
@@ -28,8 +30,8 @@ struct MapFile {
 };
 
 /// Of a path that ends in .yaml or .yml: a map of ROS (firmware/files/ros_map_file.hpp). Else TOML with the keys image,
-/// resolution_m, optional classes (a class table; the built-in one without it). Paths in the file are relative to it.
-/// Refuses a pixel whose colour is no class of the table, saying where, which, and what is nearest.
+/// resolution_m, optional classes (a class table; the built-in one without it) and aerial. Paths in the file are
+/// relative to it. Refuses a pixel whose colour is no class of the table, saying where, which, and what is nearest.
 /// Whether the map fits the planner's limits is for the planner to say.
 [[nodiscard]] Result<MapFile> read_map(const std::string& path);
 

@@ -1,61 +1,25 @@
 #include "firmware/files/polygon_checks.hpp"
 
-#include <algorithm>
-#include <cstddef>
+#include "config/simple_polygon.hpp"
 
 namespace ivo::firmware {
-namespace {
-
-/// Sign of the turn from a over b to c: 1 left, -1 right, 0 straight.
-int turn(Point a, Point b, Point c) {
-  const double cross = (b.x_m - a.x_m) * (c.y_m - a.y_m) - (b.y_m - a.y_m) * (c.x_m - a.x_m);
-  return cross > 0 ? 1 : cross < 0 ? -1 : 0;
-}
-
-/// `p` on the line of a and b, between them.
-bool between(Point a, Point b, Point p) {
-  return turn(a, b, p) == 0 && std::min(a.x_m, b.x_m) <= p.x_m && p.x_m <= std::max(a.x_m, b.x_m) &&
-         std::min(a.y_m, b.y_m) <= p.y_m && p.y_m <= std::max(a.y_m, b.y_m);
-}
-
-bool meet(Point a, Point b, Point c, Point d) {
-  return (turn(a, b, c) * turn(a, b, d) < 0 && turn(c, d, a) * turn(c, d, b) < 0) || between(a, b, c) ||
-         between(a, b, d) || between(c, d, a) || between(c, d, b);
-}
-
-bool on_one_line(const Polygon& polygon) {
-  return std::all_of(polygon.begin(), polygon.end(), [&](Point p) { return turn(polygon[0], polygon[1], p) == 0; });
-}
-
-}  // namespace
 
 std::optional<std::string> fault_of(const Polygon& polygon) {
-  const std::size_t n = polygon.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    if (polygon[i] == polygon[(i + 1) % n]) {
-      return "vertices " + std::to_string(i) + " and " + std::to_string((i + 1) % n) +
-             " are the same; expected each vertex once";
-    }
-  }
-  if (on_one_line(polygon)) {
-    return "covers no area; expected a polygon";
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    const Point a = polygon[i];
-    const Point b = polygon[(i + 1) % n];
-    // A side and the next share a vertex and meet elsewhere only when one folds back over the other.
-    const Point after = polygon[(i + 2) % n];
-    bool crosses = between(a, b, after) || between(b, after, a);
-    std::size_t other = (i + 1) % n;
-    for (std::size_t j = i + 2; j < n && !crosses; ++j) {
-      const bool neighbours = (j + 1) % n == i;
-      crosses = !neighbours && meet(a, b, polygon[j], polygon[(j + 1) % n]);
-      other = j;
-    }
-    if (crosses) {
-      return "crosses itself: sides " + std::to_string(i) + " and " + std::to_string(other) +
+  const PolygonVerdict verdict = judge_polygon(polygon);
+  const std::string first = std::to_string(verdict.first);
+  const std::string second = std::to_string(verdict.second);
+  switch (verdict.fault) {
+    case PolygonFault::kTooFew:
+      return "has " + std::to_string(polygon.size()) + " vertices; expected at least 3";
+    case PolygonFault::kTwice:
+      return "vertices " + first + " and " + second + " are the same; expected each vertex once";
+    case PolygonFault::kNoArea:
+      return "covers no area; expected a polygon";
+    case PolygonFault::kCrosses:
+      return "crosses itself: sides " + first + " and " + second +
              " meet; expected a polygon whose sides meet only at its vertices";
-    }
+    case PolygonFault::kNone:
+      break;
   }
   return std::nullopt;
 }

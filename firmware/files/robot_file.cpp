@@ -115,6 +115,8 @@ LoopParameters read_loop(const TomlValue& table) {
   if (const TomlValue cpu = table.optional("cpu"); cpu.present()) {
     loop.cpu = static_cast<int>(cpu.integer(0, 1023));
   }
+  loop.beat_timeout =
+      from_seconds(table.optional("operator_timeout_s").number({0.5, 60.0, "seconds"}, seconds(loop.beat_timeout)));
   return loop;
 }
 

@@ -48,6 +48,7 @@ ControlLoop::ControlLoop(const LoopSetup& setup, planner::Planner& planner, hal:
       longest_step_(kLongestStep * setup.robot.cycle),
       fault_waits_(setup.fault_waits),
       real_time_(setup.real_time && setup.stopwatch != nullptr),
+      beat_timeout_(setup.robot.loop.beat_timeout),
       slices_(planner, events_, tracer_) {
   if (setup.resumed != nullptr) {
     take_up(*setup.resumed);
@@ -61,6 +62,7 @@ void ControlLoop::take_up(const ResumedSearch& resumed) noexcept {
   if (resumed.started) {
     stands_ = resumed.robot;
     left_off_m_ = resumed.distance_left_m;
+    slices_.follow();
     search_.resume(slices_.plan(), object_, resumed.progress);
   }
 }
@@ -106,26 +108,85 @@ void ControlLoop::take_commands() noexcept {
   const PhaseWatch::Lap lap(watch_, Phase::kTakeCommands);
   consent_ = false;
   clear_asked_ = false;
-  StopCause cause = stop_requested_.load(std::memory_order_relaxed) ? StopCause::kAsked : StopCause::kNone;
-  for (OperatorCommand command{}; commands_.pop(command);) {
-    switch (command) {
-      case OperatorCommand::kConsent:
-        consent_ = true;
-        break;
-      case OperatorCommand::kClearFault:
-        clear_asked_ = mode_ == Mode::kFault;
-        break;
-      case OperatorCommand::kNoConsent:
-      case OperatorCommand::kPlanNotKept:
-        cause = cause != StopCause::kNone                ? cause
-                : command == OperatorCommand::kNoConsent ? StopCause::kNoConsent
-                                                         : StopCause::kPlanNotKept;
-        break;
-    }
+  pause_asked_ = false;
+  if (stop_requested_.load(std::memory_order_relaxed)) {
+    stop_for(StopCause::kAsked);
   }
-  if (cause != StopCause::kNone && stop_cause_ == StopCause::kNone) {
+  if (pause_requested_.exchange(false, std::memory_order_relaxed)) {
+    pause(PauseCause::kAsked);
+  }
+  for (OperatorCommand command; commands_.pop(command);) {
+    take(command);
+  }
+  watch_beats();
+}
+
+void ControlLoop::take(const OperatorCommand& command) noexcept {
+  switch (command.kind) {
+    case OperatorCommand::kConsent:
+      consent_ = command.pauses == pauses_;  // who agreed before a pause has not agreed to go on after it
+      watched_ = command.watched;
+      beat_at_ = now_;  // who agrees is there
+      break;
+    case OperatorCommand::kClearFault:
+      clear_asked_ = mode_ == Mode::kFault;
+      break;
+    case OperatorCommand::kNoConsent:
+      stop_for(StopCause::kNoConsent);
+      break;
+    case OperatorCommand::kPlanNotKept:
+      stop_for(StopCause::kPlanNotKept);
+      break;
+    case OperatorCommand::kPlanAnew:
+      slices_.hold();
+      pause(PauseCause::kReplan);
+      break;
+    case OperatorCommand::kPlanWith:
+      slices_.begin_anew(*command.planner);
+      search_.look_through(command.planner->cells());
+      record(EventKind::kPlanAsked, 0, static_cast<std::int32_t>(slices_.number()));
+      break;
+    case OperatorCommand::kPlanAsBefore:
+      slices_.go_back();
+      break;
+    case OperatorCommand::kEnough:
+      slices_.end_here(now_);
+      break;
+    case OperatorCommand::kFound:
+      search_.found_by(command.agent);
+      break;
+    case OperatorCommand::kReport:
+      search_.report(command.agent, command.place, now_);
+      break;
+  }
+}
+
+void ControlLoop::stop_for(StopCause cause) noexcept {
+  if (stop_cause_ == StopCause::kNone) {
     stop_cause_ = cause;
     record(EventKind::kStopAsked, 0, static_cast<std::int32_t>(cause));
+  }
+}
+
+// The robot moves by the consent of somebody who is to be there.
+void ControlLoop::watch_beats() noexcept {
+  const std::uint32_t beats = beats_.load(std::memory_order_relaxed);
+  if (beats != beats_heard_) {
+    beats_heard_ = beats;
+    beat_at_ = now_;
+  }
+  if (watched_ && mode_ == Mode::kSearching && (!beat_at_ || now_ - *beat_at_ > beat_timeout_)) {
+    pause(PauseCause::kBeatLost);
+  }
+}
+
+void ControlLoop::pause(PauseCause cause) noexcept {
+  pause_asked_ = true;
+  consent_ = false;
+  ++pauses_;
+  if (mode_ == Mode::kSearching) {
+    pause_cause_ = cause;
+    record(EventKind::kPaused, 0, static_cast<std::int32_t>(cause));
   }
 }
 
@@ -184,7 +245,9 @@ void ControlLoop::look_for_object() noexcept {
   }
   search_.update(now_, odometry_.pose().point(), following_.reached);
   if (search_.state() == SearchState::kFound) {
-    record(EventKind::kFound, static_cast<std::uint8_t>(*search_.finder()), 0, *object_.place());
+    const int finder = *search_.finder();
+    record(EventKind::kFound, static_cast<std::uint8_t>(finder), 0,
+           object_.place().value_or(search_.track(finder).position));
   } else if (search_.state() == SearchState::kPathsEnded) {
     record(EventKind::kPathsEnded);
   }
@@ -207,6 +270,7 @@ void ControlLoop::decide_mode() noexcept {
           .plan_ready = slices_.ready(),
           .consent_given = consent_,
           .stop_asked = stop_cause_ != StopCause::kNone,
+          .pause_asked = pause_asked_,
           .clear_asked = clear_asked_,
           .search_ended = search_.state() != SearchState::kRunning,
           .drives_ready =
@@ -224,6 +288,8 @@ void ControlLoop::decide_mode() noexcept {
   }
   if (mode_ == Mode::kSearching && enabled && !search_started_) {
     begin_search();
+  } else if (mode_ == Mode::kSearching && enabled && slices_.newer()) {
+    take_new_plan();
   }
   if (before == Mode::kFault && mode_ != before) {
     record(EventKind::kFaultCleared);
@@ -248,8 +314,14 @@ void ControlLoop::begin_search() noexcept {
   search_started_ = true;
   odometry_.reset(stands_);
   limiter_.reset();
+  const bool new_plan = slices_.newer();
+  slices_.follow();
   const auto path = slices_.plan().paths[0].waypoints.span();
-  if (left_off_m_) {
+  if (left_off_m_ && new_plan) {
+    (void)follower_.start(path, stands_);
+    search_.go_on(now_);
+    search_.follow(slices_.plan());
+  } else if (left_off_m_) {
     (void)follower_.resume(path, stands_, start_.heading_rad, *left_off_m_);
     search_.go_on(now_);
   } else {
@@ -260,13 +332,22 @@ void ControlLoop::begin_search() noexcept {
   record(EventKind::kSearchStarted);
 }
 
+// Under way, and from a standstill: everybody goes to where the new paths begin.
+void ControlLoop::take_new_plan() noexcept {
+  slices_.follow();
+  limiter_.reset();
+  (void)follower_.start(slices_.plan().paths[0].waypoints.span(), odometry_.pose());
+  search_.follow(slices_.plan());
+  record(EventKind::kPlanTaken, 0, static_cast<std::int32_t>(slices_.number()));
+}
+
 Twist ControlLoop::choose_velocity() noexcept {
   const PhaseWatch::Lap lap(watch_, Phase::kChooseVelocity);
   return pass_gate(clamp(follow()));
 }
 
 Twist ControlLoop::follow() noexcept {
-  if (mode_ != Mode::kSearching || !search_started_) {
+  if (mode_ != Mode::kSearching || !search_started_ || wheels_.state != drivers::GroupState::kEnabled) {
     return {};
   }
   following_ = follower_.update({.pose = odometry_.pose(), .moving = moving_, .dt = dt_});
@@ -278,7 +359,7 @@ Twist ControlLoop::clamp(const Twist& wanted) noexcept {
     limiter_.reset();
     return {};
   }
-  if (mode_ == Mode::kStopping || overruns_.lateness() == Lateness::kRampDown) {
+  if (ramps_down(mode_) || overruns_.lateness() == Lateness::kRampDown) {
     return limiter_.ramp_down(dt_);
   }
   const double scale = kinematics_.saturation(kinematics_.wheel_speeds(wanted));

@@ -85,11 +85,19 @@ class ControlLoop {
   /// From any thread and from a signal handler: the robot ramps down, the run ends.
   void request_stop() noexcept { stop_requested_.store(true, std::memory_order_relaxed); }
 
+  /// From any thread: the robot ramps down and stands until somebody consents anew. Where it does not move, an answer
+  /// that is on its way is void.
+  void request_pause() noexcept { pause_requested_.store(true, std::memory_order_relaxed); }
+  /// From any thread: whoever consented is there (OperatorCommand::watched).
+  void beat() noexcept { beats_.fetch_add(1, std::memory_order_relaxed); }
+
   // To and from one other thread.
   bool command(OperatorCommand command) noexcept { return commands_.push(command); }
   [[nodiscard]] const LoopStatus& status() noexcept { return status_.read(); }
   /// The plan; valid once a status has shown plan_ready.
-  [[nodiscard]] const planner::Plan& plan() noexcept { return slices_.shown(); }
+  [[nodiscard]] const planner::Plan& plan() noexcept { return slices_.shown().plan; }
+  /// The same, or the best so far.
+  [[nodiscard]] const ShownPlan& shown_plan() noexcept { return slices_.shown(); }
   [[nodiscard]] EventRing& events() noexcept { return events_; }
   /// Cycles so far, from any thread: what a watchdog looks at.
   [[nodiscard]] std::uint64_t cycles() const noexcept { return cycles_.load(std::memory_order_relaxed); }
@@ -102,6 +110,10 @@ class ControlLoop {
   // The phases.
   void judge_time(const CycleStart& start) noexcept;
   void take_commands() noexcept;
+  void take(const OperatorCommand& command) noexcept;
+  void stop_for(StopCause cause) noexcept;
+  void watch_beats() noexcept;
+  void pause(PauseCause cause) noexcept;
   void drain_bus() noexcept;
   void look_at_drives() noexcept;
   void look_for_object() noexcept;
@@ -116,9 +128,11 @@ class ControlLoop {
   [[nodiscard]] Twist follow() noexcept;
   [[nodiscard]] Twist clamp(const Twist& wanted) noexcept;
   [[nodiscard]] Twist pass_gate(const Twist& limited) noexcept;
+  [[nodiscard]] double distance_left_m() const noexcept;
   void count() noexcept;
   void take_up(const ResumedSearch& resumed) noexcept;
   void begin_search() noexcept;
+  void take_new_plan() noexcept;
   void record_fault() noexcept;
   void trace_motion() noexcept;
   void fail(const drivers::DriveFault& fault) noexcept;
@@ -165,6 +179,13 @@ class ControlLoop {
   std::uint32_t times_ready_ = 0;
   bool consent_ = false;
   bool clear_asked_ = false;
+  bool pause_asked_ = false;
+  bool watched_ = false;
+  std::uint32_t pauses_ = 0;
+  PauseCause pause_cause_ = PauseCause::kNone;
+  std::uint32_t beats_heard_ = 0;
+  std::optional<Instant> beat_at_;
+  Duration beat_timeout_;
   bool consented_ = false;
   bool search_started_ = false;
   std::optional<double> left_off_m_;  // of the path, by the run that this one takes up
@@ -177,6 +198,9 @@ class ControlLoop {
 
   Latest<LoopStatus> status_;
   SpscRing<OperatorCommand, 16> commands_;
+  std::atomic<bool> pause_requested_{false};
+  std::atomic<std::uint32_t> beats_{0};
+  static_assert(std::atomic<std::uint32_t>::is_always_lock_free);
   std::atomic<bool> stop_requested_{false};
   static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it");
   std::atomic<std::uint64_t> cycles_{0};

@@ -21,20 +21,31 @@ void ControlLoop::publish() noexcept {
   status.at = now_;
   status.mode = mode_;
   status.plan_ready = slices_.ready();
+  status.plan_number = slices_.number();
+  status.preparing = slices_.held();
   status.finished = finished_;
   status.power_off = wheels_.off;
   status.planning = slices_.progress();
   status.robot = odometry_.pose();
   for (int agent = 0; agent < search_.agents(); ++agent) {
-    status.tracks[static_cast<std::size_t>(agent)] = search_.track(agent);
+    AgentTrack& track = status.tracks[static_cast<std::size_t>(agent)];
+    track = search_.track(agent);
+    track.before_m = slices_.newer() ? track.moved_m : track.before_m;
+    status.report_age[static_cast<std::size_t>(agent)] = search_.report_age(agent, now_);
   }
   status.search = search_.state();
   status.search_started = search_started_ || left_off_m_;
   status.consented = consented_;
-  status.distance_left_m = search_started_ ? following_.distance_left_m : left_off_m_.value_or(0.0);
+  status.distance_left_m = distance_left_m();
   status.finder = search_.finder();
   status.search_time = search_.elapsed();
   status.stop_cause = stop_cause_;
+  status.pauses = pauses_;
+  status.pause_cause = pause_cause_;
+  status.watched = watched_;
+  if (beat_at_) {
+    status.beat_age = now_ - *beat_at_;
+  }
   status.drives = wheels_.state;
   status.drive_fault = wheels_.fault;
   status.stop_held = stop_held_;
@@ -43,6 +54,14 @@ void ControlLoop::publish() noexcept {
   status.counters = counters_;
   status_.write(status);
   trace_motion();
+}
+
+// Of a plan that nobody has set off on: all of it.
+double ControlLoop::distance_left_m() const noexcept {
+  if (slices_.newer() && (search_started_ || left_off_m_)) {
+    return slices_.plan().paths[0].length_m;
+  }
+  return search_started_ ? following_.distance_left_m : left_off_m_.value_or(0.0);
 }
 
 void ControlLoop::count() noexcept {

@@ -18,6 +18,9 @@ namespace ivo::firmware {
 /// Why nobody goes on searching, when it was not the search that ended.
 enum class StopCause : std::uint8_t { kNone, kAsked, kNoConsent, kPlanNotKept };
 
+/// Why the robot stands though the search goes on, when it is not for a fault.
+enum class PauseCause : std::uint8_t { kNone, kAsked, kBeatLost, kReplan };
+
 struct LoopCounters {
   std::uint64_t cycles = 0;
   std::uint64_t skipped = 0;           ///< periods without a cycle
@@ -32,8 +35,10 @@ struct LoopStatus {
   Instant at{};
   Mode mode = Mode::kPlanning;
   bool plan_ready = false;
-  bool power_off = false;  ///< the drives have said that they are off
-  bool finished = false;   ///< drives off or given up: no cycle is needed any more
+  std::uint32_t plan_number = 1;  ///< of the plan that `planning` is about
+  bool preparing = false;         ///< a plan is to be made anew, and its tables are not there yet
+  bool power_off = false;         ///< the drives have said that they are off
+  bool finished = false;          ///< drives off or given up: no cycle is needed any more
   planner::Progress planning;
   Pose robot;
   std::array<AgentTrack, limits::kAgents> tracks{};
@@ -44,6 +49,11 @@ struct LoopStatus {
   std::optional<int> finder;
   Duration search_time{};
   StopCause stop_cause = StopCause::kNone;
+  std::uint32_t pauses = 0;                    ///< how often a pause was asked for, in motion or not
+  PauseCause pause_cause = PauseCause::kNone;  ///< of the last that ended motion
+  bool watched = false;                        ///< the last consent counts only while beats come
+  std::optional<Duration> beat_age{};          ///< since the last beat; none: there was none
+  std::array<std::optional<Duration>, limits::kAgents> report_age{};  ///< since each agent's last report
   drivers::GroupState drives = drivers::GroupState::kBooting;
   drivers::DriveFault drive_fault;
   drivers::DriveFault stop_held;  ///< a stop input that is pressed now: the robot does not get ready
@@ -52,12 +62,30 @@ struct LoopStatus {
   LoopCounters counters;
 };
 
-/// What the rest of the program may say; stop is asked for by ControlLoop::request_stop.
-enum class OperatorCommand : std::uint8_t {
-  kConsent,
-  kNoConsent,
-  kPlanNotKept,
-  kClearFault,  ///< in Mode::kFault: start the drives up again; motion needs consent anew
+/// What the rest of the program may say; stop and pause are asked for by ControlLoop::request_stop and request_pause.
+struct OperatorCommand {
+  enum Kind : std::uint8_t {
+    kConsent,
+    kNoConsent,
+    kPlanNotKept,
+    kClearFault,  ///< in Mode::kFault: start the drives up again; motion needs consent anew
+    kPlanAnew,    ///< the plan is void, a robot that moves pauses; one of the next two follows
+    kPlanWith,    ///< `planner`, which is prepared
+    kPlanAsBefore,
+    kEnough,  ///< the best plan so far is the plan
+    kFound,   ///< by `agent`
+    kReport,  ///< the person `agent` is at `place`
+  };
+
+  // NOLINTNEXTLINE(google-explicit-constructor): most commands are a word
+  constexpr OperatorCommand(Kind what = kConsent) noexcept : kind(what) {}
+
+  Kind kind;
+  std::uint8_t agent = 0;
+  bool watched = false;      ///< of a consent: it counts only while beats come
+  std::uint32_t pauses = 0;  ///< of a consent: LoopStatus::pauses when it was given; it is void after another pause
+  Point place;
+  planner::Planner* planner = nullptr;  ///< outlives the loop
 };
 
 }  // namespace ivo::firmware

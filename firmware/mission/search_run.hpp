@@ -28,8 +28,9 @@ using Searchers = StaticVector<Searcher, limits::kAgents>;
 
 struct AgentTrack {
   Point position;
-  double moved_m = 0.0;  ///< since the search started
-  Duration under_way{};  ///< until the path ended
+  double moved_m = 0.0;   ///< since the search started
+  double before_m = 0.0;  ///< of it, before the plan that is followed now
+  Duration under_way{};   ///< until the path ended
   bool path_ended = false;
 };
 
@@ -52,6 +53,16 @@ class SearchRun {
   void resume(const planner::Plan& plan, const SearchObject& object, const SearchProgress& left) noexcept;
   void go_on(Instant now) noexcept;
 
+  /// Under way: `plan` is followed from here on, by everybody from where they are; it outlives the search.
+  void follow(const planner::Plan& plan) noexcept;
+  /// The same map, as another planner has it.
+  void look_through(const planner::Cells& cells) noexcept { cells_ = &cells; }
+
+  /// A person whose place comes from outside is at `place`; of others nothing is heeded.
+  void report(int agent, Point place, Instant now) noexcept;
+  /// Somebody says so; heeded while the search goes on.
+  void found_by(int agent) noexcept;
+
   /// One cycle: the robot is at `robot` and has or has not come to the end of its path; simulated persons walk on.
   /// Cost: a line of sight an agent.
   void update(Instant now, Point robot, bool robot_path_ended) noexcept;
@@ -62,10 +73,16 @@ class SearchRun {
   /// Real search time so far: from the start to the find, or to the last update.
   [[nodiscard]] Duration elapsed() const noexcept { return elapsed_; }
   [[nodiscard]] const AgentTrack& track(int agent) const noexcept { return tracks_[static_cast<std::size_t>(agent)]; }
+  /// None: never reported.
+  [[nodiscard]] std::optional<Duration> report_age(int agent, Instant now) const noexcept;
   [[nodiscard]] int agents() const noexcept { return static_cast<int>(searchers_.size()); }
 
  private:
-  const planner::Cells& cells_;
+  [[nodiscard]] bool present(std::size_t agent) const noexcept;
+  [[nodiscard]] bool at_the_end(std::size_t agent) const noexcept;
+
+  const planner::Cells* cells_;
+  const planner::Plan* plan_ = nullptr;
   Searchers searchers_;
   SearchObject object_;
   Instant started_{};
@@ -75,6 +92,7 @@ class SearchRun {
   std::optional<int> finder_;
   std::array<AgentTrack, limits::kAgents> tracks_{};
   std::array<SimulatedPerson, limits::kAgents> persons_{};
+  std::array<std::optional<Instant>, limits::kAgents> reported_at_{};
 };
 
 }  // namespace ivo::firmware

@@ -17,6 +17,12 @@ void SimulatedPerson::resume(const planner::AgentPath& path, double speed_mps, d
   go(walked_m);
 }
 
+void SimulatedPerson::follow(const planner::AgentPath& path) noexcept {
+  path_ = &path;
+  next_ = 0;
+  walked_m_ = 0.0;
+}
+
 void SimulatedPerson::walk(Duration dt) noexcept { go(speed_mps_ * seconds(dt)); }
 
 void SimulatedPerson::go(double left_m) noexcept {

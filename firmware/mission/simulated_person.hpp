@@ -14,6 +14,9 @@ class SimulatedPerson {
   /// Has come `walked_m` along it.
   void resume(const planner::AgentPath& path, double speed_mps, double walked_m) noexcept;
 
+  /// From where they are, to the beginning of `path` and along it; walked_m() begins anew.
+  void follow(const planner::AgentPath& path) noexcept;
+
   /// Cost: the waypoints passed in `dt`.
   void walk(Duration dt) noexcept;
 

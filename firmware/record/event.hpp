@@ -23,6 +23,9 @@ enum class EventKind : std::uint8_t {
   kOverrun,        ///< code: periods skipped; agent: Lateness
   kBusState,       ///< code: hal::BusState, changed
   kFaultCleared,   ///< by the operator; the drives start up again
+  kPaused,         ///< code: PauseCause
+  kPlanAsked,      ///< code: number of the plan that is made anew
+  kPlanTaken,      ///< under way: code: number of the plan that is followed from here on
 };
 
 struct Event {

@@ -21,6 +21,7 @@ constexpr std::array<ModeRow, kModes> kModeRows{{
     {"stopping", {.may_move = true, .enable_drives = true, .think = false}},
     {"done", {.may_move = false, .enable_drives = false, .think = false}},
     {"fault", {.may_move = false, .enable_drives = false, .think = false}},
+    {"pausing", {.may_move = true, .enable_drives = true, .think = false}},
 }};
 
 using namespace condition;
@@ -28,6 +29,7 @@ using namespace condition;
 constexpr auto kTransitions = std::to_array<Transition>({
     {Mode::kPlanning, kDrivesFault, 0, Mode::kFault},
     {Mode::kPlanning, kStopAsked, 0, Mode::kDone},
+    {Mode::kPlanning, kSearchEnded, 0, Mode::kDone},  // by somebody else, while a plan was made anew
     {Mode::kPlanning, kPlanReady | kDrivesReady, 0, Mode::kAwaitingConsent},
     {Mode::kPlanning, kPlanReady, 0, Mode::kStarting},
 
@@ -50,11 +52,19 @@ constexpr auto kTransitions = std::to_array<Transition>({
     {Mode::kSearching, 0, kDrivesReady, Mode::kFault},
     {Mode::kSearching, kStopAsked, 0, Mode::kStopping},
     {Mode::kSearching, kSearchEnded, 0, Mode::kStopping},
+    {Mode::kSearching, kPauseAsked, 0, Mode::kPausing},
 
     {Mode::kStopping, kDrivesFault, 0, Mode::kFault},
     {Mode::kStopping, kStandstill, 0, Mode::kDone},
     {Mode::kStopping, kPowerLost, 0, Mode::kFault},
     {Mode::kStopping, kStopOverdue, 0, Mode::kFault},
+
+    {Mode::kPausing, kDrivesFault, 0, Mode::kFault},
+    {Mode::kPausing, kStopAsked, 0, Mode::kStopping},
+    {Mode::kPausing, kSearchEnded, 0, Mode::kStopping},
+    {Mode::kPausing, kStandstill, 0, Mode::kStarting},
+    {Mode::kPausing, kPowerLost, 0, Mode::kFault},
+    {Mode::kPausing, kStopOverdue, 0, Mode::kFault},
 
     // The drives' own fault goes first. What follows is as at the beginning: drives ready, then consent.
     {Mode::kFault, kClearAsked, kDrivesFault | kStopAsked, Mode::kStarting},
@@ -85,7 +95,7 @@ Mode ModeMachine::update(const ModeInputs& inputs, Instant now) noexcept {
   const Mode before = mode_;
   mode_ = next_mode(before, conditions(inputs, now));
   clear_asked_ = mode_ == Mode::kFault && before == Mode::kFault && (clear_asked_ || inputs.clear_asked);
-  if (mode_ != before && mode_ == Mode::kStopping) {
+  if (mode_ != before && ramps_down(mode_)) {
     stopping_since_ = now;
   }
   enabled_before_ = permissions(mode_).enable_drives && (enabled_before_ || inputs.drives_enabled);
@@ -94,7 +104,7 @@ Mode ModeMachine::update(const ModeInputs& inputs, Instant now) noexcept {
 }
 
 Conditions ModeMachine::conditions(const ModeInputs& inputs, Instant now) const noexcept {
-  const bool overdue = mode_ == Mode::kStopping && now - stopping_since_ > rates::kStandstillTimeout;
+  const bool overdue = ramps_down(mode_) && now - stopping_since_ > rates::kStandstillTimeout;
   Conditions set = 0;
   set |= bit_if(inputs.plan_ready, kPlanReady);
   set |= bit_if(inputs.consent_given && !consent_before_, kConsent);
@@ -106,6 +116,7 @@ Conditions ModeMachine::conditions(const ModeInputs& inputs, Instant now) const 
   set |= bit_if(enabled_before_ && !inputs.drives_enabled, kPowerLost);
   set |= bit_if(overdue, kStopOverdue);
   set |= bit_if(mode_ == Mode::kFault && (clear_asked_ || inputs.clear_asked), kClearAsked);
+  set |= bit_if(inputs.pause_asked, kPauseAsked);
   return set;
 }
 

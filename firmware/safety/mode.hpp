@@ -19,8 +19,9 @@ enum class Mode : std::uint8_t {
   kStopping,         ///< ramps down with the drives on until the wheels are at rest
   kDone,             ///< drives off; nothing leads away from here
   kFault,            ///< drives off; only an operator leads away from here, and back to consent
+  kPausing,          ///< ramps down as kStopping does; then the drives go off, and consent is awaited anew
 };
-inline constexpr int kModes = 7;
+inline constexpr int kModes = 8;
 
 [[nodiscard]] std::string_view name_of(Mode mode) noexcept;
 
@@ -30,6 +31,10 @@ struct Permissions {
   bool think = false;  ///< the planner runs
 };
 [[nodiscard]] Permissions permissions(Mode mode) noexcept;
+/// Its way leads to standstill and nowhere else.
+[[nodiscard]] constexpr bool ramps_down(Mode mode) noexcept {
+  return mode == Mode::kStopping || mode == Mode::kPausing;
+}
 
 /// What a transition can depend on: a set of these bits.
 using Conditions = std::uint16_t;
@@ -42,9 +47,10 @@ inline constexpr Conditions kDrivesReady = 1 << 4;  ///< all four started up and
 inline constexpr Conditions kStandstill = 1 << 5;   ///< all four wheels at rest
 inline constexpr Conditions kDrivesFault = 1 << 6;  ///< at least one drive or the bus
 inline constexpr Conditions kPowerLost = 1 << 7;    ///< all four were enabled earlier in this search, and are not now
-inline constexpr Conditions kStopOverdue = 1 << 8;  ///< kStopping for longer than rates::kStandstillTimeout
+inline constexpr Conditions kStopOverdue = 1 << 8;  ///< ramping down for longer than rates::kStandstillTimeout
 inline constexpr Conditions kClearAsked = 1 << 9;   ///< somebody has asked, since kFault began, to clear the fault
-inline constexpr Conditions kAll = (1 << 10) - 1;
+inline constexpr Conditions kPauseAsked = 1 << 10;  ///< to stand until consent anew
+inline constexpr Conditions kAll = (1 << 11) - 1;
 }  // namespace condition
 
 /// One row of the table: in `from`, with all of `all_of` and none of `none_of`, go to `to`.
@@ -62,6 +68,7 @@ struct ModeInputs {
   bool plan_ready = false;
   bool consent_given = false;  ///< only its change to true counts, and only while consent is awaited
   bool stop_asked = false;
+  bool pause_asked = false;  ///< in this cycle; nothing remembers it
   bool clear_asked = false;  ///< in kFault it is remembered until the fault is gone
   bool search_ended = false;
   bool drives_ready = false;    ///< stays true while they are being enabled, and enabled

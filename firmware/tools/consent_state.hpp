@@ -22,8 +22,9 @@ class ConsentState {
     }
     // It may have been kept from being ready for less time than passes from one status that is seen to the next.
     const bool again = std::exchange(times_ready_, status.times_ready) != status.times_ready && status.times_ready > 1;
-    beforehand_ = beforehand_ && !again;
-    return (status.mode == Mode::kStarting || again) && forget();
+    const bool paused = std::exchange(pauses_, status.pauses) != status.pauses;
+    beforehand_ = beforehand_ && !again && !paused;
+    return (status.mode == Mode::kStarting || again || paused) && forget();
   }
   /// A fault is being cleared: what was agreed to ended with it.
   void fault_cleared() noexcept {
@@ -48,6 +49,7 @@ class ConsentState {
   }
 
   std::uint32_t times_ready_ = 0;
+  std::uint32_t pauses_ = 0;
   bool beforehand_;
   bool after_fault_ = false;
   bool asked_ = false;

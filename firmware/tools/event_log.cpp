@@ -43,6 +43,19 @@ std::string_view name_of(StopCause cause) {
   return "operator";
 }
 
+std::string_view name_of(PauseCause cause) {
+  switch (cause) {
+    case PauseCause::kBeatLost:
+      return "the operator's page is not heard";
+    case PauseCause::kReplan:
+      return "a plan is made anew";
+    case PauseCause::kNone:
+    case PauseCause::kAsked:
+      break;
+  }
+  return "operator";
+}
+
 std::string_view name_of(Lateness lateness) {
   switch (lateness) {
     case Lateness::kRampDown:
@@ -173,6 +186,12 @@ std::string EventLog::line(const Event& event) const {
       return text("bus", field("state", json_quoted(hal::name_of(static_cast<hal::BusState>(event.code)))));
     case EventKind::kFaultCleared:
       return text("fault cleared");
+    case EventKind::kPaused:
+      return text("paused", field("cause", json_quoted(name_of(static_cast<PauseCause>(event.code)))));
+    case EventKind::kPlanAsked:
+      return text("plan asked", field("plan", event.code));
+    case EventKind::kPlanTaken:
+      return text("plan taken", field("plan", event.code));
   }
   return text("unknown");
 }

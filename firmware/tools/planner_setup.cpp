@@ -32,7 +32,9 @@ constexpr double kFastRho = 0.02;
 
 std::string metres(double value) { return shortest(std::round(value * 100) / 100) + " m"; }
 
-Error sentence(const planner::Refusal& refusal, const MissionInputs& inputs) {
+}  // namespace
+
+Error sentence_of(const planner::Refusal& refusal, const MissionInputs& inputs) {
   using planner::RefusalCode;
   const Lines& lines = inputs.file.lines;
   const Mission& mission = inputs.file.mission;
@@ -85,8 +87,6 @@ Error sentence(const planner::Refusal& refusal, const MissionInputs& inputs) {
   const std::optional<Error> beyond = beyond_capacity(refusal, lines);
   return beyond ? *beyond : invalid_problem(refusal, lines);
 }
-
-}  // namespace
 
 planner::SearchProblem MissionInputs::problem() const {
   const Mission& mission = file.mission;
@@ -232,7 +232,7 @@ Result<void> prepare(planner::Planner& planner, const MissionInputs& inputs) {
     return *error;
   }
   if (const planner::Refusal refusal = planner.prepare(inputs.problem())) {
-    return sentence(refusal, inputs);
+    return sentence_of(refusal, inputs);
   }
   return {};
 }

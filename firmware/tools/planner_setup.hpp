@@ -30,6 +30,9 @@ struct MissionInputs {
 /// Reads a mission and every file it names.
 [[nodiscard]] Result<MissionInputs> read_inputs(const std::string& mission_path);
 
+/// What the planner refuses, as FILE:LINE: KEY: what was wrong; what is expected.
+[[nodiscard]] Error sentence_of(const planner::Refusal& refusal, const MissionInputs& inputs);
+
 /// Prepares `planner` for the mission; what it refuses comes back as FILE:LINE: KEY: what was wrong; what is expected.
 [[nodiscard]] Result<void> prepare(planner::Planner& planner, const MissionInputs& inputs);
 

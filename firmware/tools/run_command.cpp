@@ -85,7 +85,7 @@ int run(const RunOptions& given) {
   if (!read) {
     return refuse(read.error());
   }
-  const MissionInputs inputs = std::move(read).value();
+  MissionInputs inputs = std::move(read).value();                  // people may draw other areas than it has
   Result<hal::ServiceNotify> notify = hal::ServiceNotify::open();  // before there is another thread
   if (!notify) {
     return refuse(notify.error());
@@ -168,7 +168,14 @@ int run(const RunOptions& given) {
   const RunView view{{inputs, planner}, object};
   std::optional<RunConsole> console;
   if (listener.value()) {
-    console.emplace(std::move(*listener.value()), *loop, static_cast<int>(setup.searchers.size()));
+    console.emplace(std::move(*listener.value()), *loop, inputs, planner, object);
+    if (const Result<void> drawn =
+            console->dialogue().keep_areas_at(options.out + "/areas.geojson", keeper.value()->taken_up());
+        !drawn) {
+      running_loop.store(nullptr);
+      return refuse_in_order(drawn.error());
+    }
+    console->dialogue().take_up(log.value().tracks());
   }
   RunSession session(options, view, *loop, *world.value(), std::move(real_time).value(), std::move(log).value(),
                      *keeper.value(), record.value().get(), *trace.value(), console ? &*console : nullptr);

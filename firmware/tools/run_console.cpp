@@ -18,21 +18,45 @@ Result<std::optional<console::Listener>> RunConsole::listen(const RunOptions& op
   return std::optional(std::move(listener).value());
 }
 
-RunConsole::RunConsole(console::Listener listener, ControlLoop& loop, int agents)
-    : desk_([&loop] { loop.request_stop(); }), socket_(std::move(listener), desk_), agents_(agents) {}
+namespace {
+
+console::BoardRules rules_of(const MissionInputs& inputs) {
+  const planner::SegmentedMap map = inputs.map.view();
+  return {static_cast<int>(inputs.file.mission.agents.size()), map.width_m(), map.height_m()};
+}
+
+console::Reported reported_of(const Mission& mission) {
+  console::Reported reported{};
+  for (std::size_t m = 0; m < mission.agents.size(); ++m) {
+    const AgentSpec& agent = mission.agents[m];
+    reported[m] = agent.kind == AgentKind::kPerson && agent.motion == PersonMotion::kReported;
+  }
+  return reported;
+}
+
+}  // namespace
+
+RunConsole::RunConsole(console::Listener listener, ControlLoop& loop, MissionInputs& inputs, planner::Planner& planner,
+                       const SearchObject& object)
+    : agents_(static_cast<int>(inputs.file.mission.agents.size())),
+      desk_(rules_of(inputs), reported_of(inputs.file.mission),
+            {[&loop] { loop.request_stop(); }, [&loop] { loop.request_pause(); }, [&loop] { loop.beat(); }}),
+      dialogue_(std::make_unique<Dialogue>(inputs, planner, object, loop, desk_)),
+      socket_(std::move(listener), desk_) {}
 
 void RunConsole::show(const LoopStatus& status, console::Asks asks, bool taken_up) {
   console::Status shown = console::status_of(status, agents_);
   shown.taken_up = taken_up && !status.consented ? 1 : 0;
+  dialogue_->complete(shown);
   desk_.show(shown, asks);
 }
 
-Answer RunConsole::answer_to(console::Asks asks) {
-  const std::optional<console::Kind> answer = desk_.take(asks);
+RunConsole::Said RunConsole::answer_to(console::Asks asks) {
+  const std::optional<console::DeskAnswer> answer = desk_.take(asks);
   if (!answer) {
-    return Answer::kNone;
+    return {};
   }
-  return *answer == console::Kind::kNoConsent ? Answer::kNo : Answer::kYes;
+  return {answer->kind == console::Kind::kNoConsent ? Answer::kNo : Answer::kYes, answer->watched};
 }
 
 std::string RunConsole::close() {

@@ -21,7 +21,7 @@ RunSession::RunSession(const RunOptions& options, const RunView& view, ControlLo
                        RealTimeUse real_time, EventLog log, SearchKeeper& keeper, FrameRecord* record, RunTrace& trace,
                        RunConsole* console)
     : options_(options),
-      view_(view),
+      view_(&view),
       loop_(loop),
       world_(world),
       real_time_(std::move(real_time)),
@@ -44,14 +44,18 @@ void RunSession::to_the_end() {
 
 int RunSession::write_and_tell() {
   const LoopStatus& status = loop_.status();
-  const RunOutcome outcome = outcome_of(view_, status, world_.stalled());
+  const RunOutcome outcome = outcome_of(*view_, status, world_.stalled());
   const planner::Plan* plan = status.plan_ready ? &loop_.plan() : nullptr;
   if (plan != nullptr) {
     show_plan_once(status);
   }
   question_.close();
   terminal_.show_result(outcome, status, plan, world_.lapses());
-  const bool reported = write("report.json", report_json(report_document(view_, plan, status, outcome)));
+  const std::string report = report_json(report_document(*view_, plan, status, outcome));
+  const bool reported = write("report.json", report);
+  if (console_ != nullptr) {
+    console_->dialogue().show_report(report);
+  }
   if (plan != nullptr) {
     write_picture(*plan, status, outcome);
   }
@@ -115,6 +119,7 @@ void RunSession::observe(int wait_ms) {
   }
   mode_shown_ = status.mode;
   asks_ = console::Asks::kNothing;
+  observe_console(status);
   if (consent_.withdrawn_by(status)) {
     question_.close();
   }
@@ -123,14 +128,20 @@ void RunSession::observe(int wait_ms) {
       terminal_.show_planning(status.planning);
       break;
     case Mode::kStarting:
-      show_plan_once(status);
+      if (status.plan_ready) {
+        show_plan_once(status);
+      }
       terminal_.show_starting(status);
       break;
     case Mode::kAwaitingConsent:
+      if (plan_is_made_anew() || !status.plan_ready) {
+        break;
+      }
       show_plan_once(status);
-      waited = seek_consent();
+      waited = seek_consent(status);
       break;
     case Mode::kSearching:
+    case Mode::kPausing:
     case Mode::kStopping:
       if (status.search_started) {
         terminal_.show_search(status);
@@ -151,18 +162,19 @@ void RunSession::observe(int wait_ms) {
 }
 
 void RunSession::show_plan_once(const LoopStatus& status) {
-  if (plan_shown_) {
+  if (plan_shown_ == status.plan_number) {
     return;
   }
-  plan_shown_ = true;
+  plan_shown_ = status.plan_number;
   const planner::Plan& plan = loop_.plan();
   const ResumedSearch* const resumed = keeper_.resumed();
-  const int generations = resumed != nullptr ? resumed->generations : status.planning.generation;
+  const bool taken_over = resumed != nullptr && status.plan_number == 1;
+  const int generations = taken_over ? resumed->generations : status.planning.generation;
   trace_.show_plan(plan);
   terminal_.show_plan(plan);
-  (void)write("plan.json", plan_json(plan_document(view_, plan, {generations})));
+  (void)write("plan.json", plan_json(plan_document(*view_, plan, {generations})));
   write_picture(plan, status, {RunEnd::kNoConsent, "the plans, before anybody consented"});
-  if (const Result<void> kept = keeper_.keep_plan(plan, generations, log_); !kept) {
+  if (const Result<void> kept = keeper_.keep_plan(plan, generations, status.plan_number > 1, log_); !kept) {
     keeping_failed_ = true;
     note(kept.error());
   }
@@ -182,7 +194,7 @@ void RunSession::keep(const LoopStatus& status) {
 }
 
 void RunSession::write_picture(const planner::Plan& plan, const LoopStatus& status, const RunOutcome& outcome) {
-  const Result<std::string> picture = picture_png(picture_of(view_, plan, status, outcome, log_.tracks()));
+  const Result<std::string> picture = picture_png(picture_of(*view_, plan, status, outcome, log_.tracks()));
   if (picture) {
     (void)write("search.png", picture.value());
   } else {
@@ -191,7 +203,7 @@ void RunSession::write_picture(const planner::Plan& plan, const LoopStatus& stat
 }
 
 // True when it waited for an answer.
-bool RunSession::seek_consent() {
+bool RunSession::seek_consent(const LoopStatus& status) {
   if (consent_.answered()) {
     return false;
   }
@@ -215,9 +227,14 @@ bool RunSession::seek_consent() {
       say("consent", "is waited for at " + options_.console);
     }
   }
-  const Answer answer = answer_to(question_, console::Asks::kConsent);
-  if (answer != Answer::kNone) {
-    consent_.answer(loop_.command(answer == Answer::kYes ? OperatorCommand::kConsent : OperatorCommand::kNoConsent));
+  const RunConsole::Said said = answer_to(question_, console::Asks::kConsent);
+  if (said.answer == Answer::kYes) {
+    OperatorCommand consent(OperatorCommand::kConsent);
+    consent.watched = said.watched;
+    consent.pauses = status.pauses;
+    consent_.answer(loop_.command(consent));
+  } else if (said.answer == Answer::kNo) {
+    consent_.answer(loop_.command(OperatorCommand::kNoConsent));
   }
   return true;
 }
@@ -240,7 +257,7 @@ bool RunSession::seek_clearing(const LoopStatus& status) {
     terminal_.show_fault(status);
     clear_question_.ask("fault", "Start the drives up again? Nothing moves before you consent anew. [y/N] ");
   }
-  const Answer answer = answer_to(clear_question_, console::Asks::kClearing);
+  const Answer answer = answer_to(clear_question_, console::Asks::kClearing).answer;
   if (answer == Answer::kYes) {
     (void)loop_.command(OperatorCommand::kClearFault);
     clear_asked_at_ = status.at;
@@ -262,21 +279,43 @@ void RunSession::show_at_console(const LoopStatus& status, console::Asks asks) {
 }
 
 // Of the terminal or the console: who is first.
-Answer RunSession::answer_to(ConsentQuestion& question, console::Asks asks) {
+RunConsole::Said RunSession::answer_to(ConsentQuestion& question, console::Asks asks) {
   asks_ = asks;
   const Answer typed = question.poll(kAnswerMs);
   if (typed != Answer::kNone || console_ == nullptr) {
-    return typed;
+    return {typed};
   }
-  const Answer answer = console_->answer_to(asks);
-  if (answer != Answer::kNone) {
+  const RunConsole::Said said = console_->answer_to(asks);
+  if (said.answer != Answer::kNone) {
     question.close();
     terminal_.end_line();
     say(asks == console::Asks::kConsent ? "consent" : "fault",
-        answer == Answer::kYes ? "the console says yes" : "the console says no");
+        said.answer == Answer::kYes ? "the console says yes" : "the console says no");
   }
-  return answer;
+  return said;
 }
+
+// Before anything is asked: who wants another plan has not agreed to this one.
+void RunSession::observe_console(const LoopStatus& status) {
+  if (console_ == nullptr) {
+    return;
+  }
+  console_->dialogue().observe(status);
+  if (const std::optional<Error>& failure = console_->dialogue().failure(); failure && !areas_not_kept_) {
+    note({failure->message + "; a run that is cut off now loses the areas that are drawn"});
+    areas_not_kept_ = true;
+  }
+  const RunView& view = console_->dialogue().view();
+  if (&view != view_) {
+    view_ = &view;
+    terminal_.look_at(view);
+  }
+  if (plan_is_made_anew()) {
+    question_.close();
+  }
+}
+
+bool RunSession::plan_is_made_anew() const { return console_ != nullptr && console_->dialogue().preparing(); }
 
 bool RunSession::write(const char* name, const std::string& contents) { return write_to(path_of(name), contents); }
 

@@ -44,19 +44,21 @@ class RunSession {
   void show_plan_once(const LoopStatus& status);
   void keep(const LoopStatus& status);
   void write_picture(const planner::Plan& plan, const LoopStatus& status, const RunOutcome& outcome);
-  bool seek_consent();
+  bool seek_consent(const LoopStatus& status);
   bool seek_clearing(const LoopStatus& status);
   [[nodiscard]] bool takes_up_a_way() const;
   void show_at_console(const LoopStatus& status, console::Asks asks);
   [[nodiscard]] bool nobody_answers() const { return console_ == nullptr && !ConsentQuestion::possible(); }
-  [[nodiscard]] Answer answer_to(ConsentQuestion& question, console::Asks asks);
+  [[nodiscard]] RunConsole::Said answer_to(ConsentQuestion& question, console::Asks asks);
+  void observe_console(const LoopStatus& status);
+  [[nodiscard]] bool plan_is_made_anew() const;
   bool write(const char* name, const std::string& contents);
   bool write_to(const std::string& path, const std::string& contents);
   void note(const Error& error);
   [[nodiscard]] std::string path_of(const char* name) const { return options_.out + "/" + name; }
 
   const RunOptions& options_;
-  const RunView& view_;
+  const RunView* view_;
   ControlLoop& loop_;
   RunWorld& world_;
   RealTimeUse real_time_;
@@ -74,11 +76,12 @@ class RunSession {
   std::optional<Mode> mode_shown_;
   std::uint8_t turning_told_ = 0;  // node-id of the wheel of which was said that it did not stop
   ConsentState consent_;
-  console::Asks asks_{};  // what we are waiting for
-  bool plan_shown_ = false;
-  bool plan_not_kept_ = false;  // when it was shown
-  bool write_failed_ = false;   // anything, at any time
+  console::Asks asks_{};          // what we are waiting for
+  std::uint32_t plan_shown_ = 0;  // its number
+  bool plan_not_kept_ = false;    // when it was shown
+  bool write_failed_ = false;     // anything, at any time
   bool keeping_failed_ = false;
+  bool areas_not_kept_ = false;
 };
 
 }  // namespace ivo::firmware

@@ -39,25 +39,25 @@ std::string lateness_text(const LoopStatus& status) {
 
 }  // namespace
 
-RunTerminal::RunTerminal(const RunView& run) : run_(run) {}
+RunTerminal::RunTerminal(const RunView& run) : run_(&run) {}
 
 void RunTerminal::show_mission(const std::string& bus) const {
-  ivo::firmware::show_mission(run_);
+  ivo::firmware::show_mission(*run_);
   say("bus", bus);
 }
 
 void RunTerminal::show_planning(const planner::Progress& progress) {
   if (progress.generations > 0) {  // else the loop has not shown anything yet
-    show_progress(line_, run_, progress);
+    show_progress(line_, *run_, progress);
   }
 }
 
 void RunTerminal::show_plan(const planner::Plan& plan) {
   line_.end();
   horizon_s_ = plan.score.horizon_s;
-  say("plans", score_text(run_, plan.score));
-  show_bound(run_, plan.score);
-  show_paths(run_, plan);
+  say("plans", score_text(*run_, plan.score));
+  show_bound(*run_, plan.score);
+  show_paths(*run_, plan);
 }
 
 void RunTerminal::show_starting(const LoopStatus& status) {
@@ -76,7 +76,7 @@ void RunTerminal::show_search(const LoopStatus& status) {
   constexpr int kParts = 1000;
   const double share = std::min(1.0, seconds(status.search_time) / std::max(1.0, horizon_s_));
   if (line_.due(static_cast<int>(kParts * share), kParts)) {
-    line_.draw("searching", format("%6.1f s", seconds(status.search_time)) + positions(run_, status) +
+    line_.draw("searching", format("%6.1f s", seconds(status.search_time)) + positions(*run_, status) +
                                 bus_text(status) + lateness_text(status));
   }
 }
@@ -95,10 +95,10 @@ void RunTerminal::show_result(const RunOutcome& outcome, const LoopStatus& statu
   if (status.search_started && plan != nullptr) {
     const double search_s = seconds(status.search_time);
     say("time", format("searched %.1f s; expected %.1f s", search_s, plan->score.expected_time_s));
-    if (run_.object.place()) {
-      say("object", "lay at " + place_text(*run_.object.place()));
+    if (run_->object.place()) {
+      say("object", "lay at " + place_text(*run_->object.place()));
     }
-    const auto& agents = run_.inputs.file.mission.agents;
+    const auto& agents = run_->inputs.file.mission.agents;
     for (std::size_t m = 0; m < agents.size(); ++m) {
       say("", agents[m].name + format(": %.1f of %.1f m, %.2f m/s on average", status.tracks[m].moved_m,
                                       plan->paths[m].length_m, mean_speed_mps(status.tracks[m])));

@@ -12,6 +12,8 @@ namespace ivo::firmware {
 class RunTerminal {
  public:
   explicit RunTerminal(const RunView& run);
+  /// Another planner's plans from here on.
+  void look_at(const RunView& run) noexcept { run_ = &run; }
 
   void show_mission(const std::string& bus) const;
   /// Drawn over itself on a terminal; elsewhere a line a tenth of the way.
@@ -27,7 +29,7 @@ class RunTerminal {
   void end_line() { line_.end(); }
 
  private:
-  const RunView& run_;
+  const RunView* run_;
   LiveLine line_;
   double horizon_s_ = 0.0;
   bool stop_held_ = false;  // and said

@@ -138,7 +138,7 @@ std::optional<KeepoutMask> keepout_of(const View& view) {
   return keepout_mask({.width_px = facts->width_px,
                        .height_px = facts->height_px,
                        .resolution_m = facts->resolution_m,
-                       .origin_m = {},
+                       .origin_m = facts->origin_m,
                        .obstacles = obstacles,
                        .no_go = no_go},
                       "keepout.pgm");

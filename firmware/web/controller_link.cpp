@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "firmware/console/socket_path.hpp"
+#include "firmware/loop/loop_status.hpp"
 #include "firmware/web/controller_message.hpp"
 
 namespace ivo::firmware::web {
@@ -31,9 +32,10 @@ std::optional<Message> message_of(console::Kind kind, std::span<const std::byte>
 bool sound(const console::Status& status) {
   const auto finite = [](double number) { return std::isfinite(number); };
   return status.agents <= console::kAgents && status.fault.back() == '\0' &&
-         status.pause_cause <= console::PauseCause::kReplan && status.asks <= console::Asks::kClearing &&
-         finite(status.beat_age_s) && finite(status.expected_time_s) && finite(status.unseen_mass) &&
-         finite(status.horizon_s) && finite(status.searched_mass) && finite(status.heading_rad) &&
+         status.pause_cause <= static_cast<std::uint8_t>(PauseCause::kReplan) &&
+         status.asks <= console::Asks::kClearing && finite(status.beat_age_s) && finite(status.expected_time_s) &&
+         finite(status.unseen_mass) && finite(status.horizon_s) && finite(status.searched_mass) &&
+         finite(status.heading_rad) &&
          std::all_of(status.agent.begin(), status.agent.end(), [&](const console::AgentStatus& agent) {
            return finite(agent.x_m) && finite(agent.y_m) && finite(agent.moved_m) && finite(agent.left_m) &&
                   finite(agent.report_age_s);

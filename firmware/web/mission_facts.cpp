@@ -22,6 +22,9 @@ std::optional<MissionFacts> mission_facts(const std::string& document) {
   facts.width_px = static_cast<int>(reading.count(*map, "map.", "width_px", kMostPixels));
   facts.height_px = static_cast<int>(reading.count(*map, "map.", "height_px", kMostPixels));
   facts.resolution_m = reading.number(*map, "map.", "resolution_m", 1e-6, 1e6);
+  if (const Json* const origin = map->member("origin_m")) {
+    facts.origin_m = reading.point(*origin, "map.origin_m");
+  }
   for (const Json& one : reading.list(json.value(), "", "classes").elements) {
     facts.obstacle.push_back(reading.flag(one, "classes.", "obstacle"));
   }

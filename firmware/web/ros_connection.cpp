@@ -1,13 +1,24 @@
 #include "firmware/web/ros_connection.hpp"
 
+#include <chrono>
 #include <variant>
 
 #include "firmware/web/hub.hpp"
 
 namespace ivo::firmware::web {
+namespace {
+
+/// Of the server's clock, which is the steady one: ROS stamps with the time since 1970. Asked anew for each client, as
+/// a robot's PC may learn the time late.
+Duration epoch_of_server() {
+  return std::chrono::duration_cast<Duration>(std::chrono::system_clock::now().time_since_epoch()) -
+         std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now().time_since_epoch());
+}
+
+}  // namespace
 
 RosConnection::RosConnection(Screen screen, const Paired& paired, Hub& hub)
-    : Session(screen, paired), hub_(hub), session_(hub.view(), *this) {}
+    : Session(screen, paired), hub_(hub), session_(hub.view(), *this, epoch_of_server()) {}
 
 void RosConnection::hear(std::string_view message, bool binary, Instant now) {
   now_ = now;

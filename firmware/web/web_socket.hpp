@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "config/base/time.hpp"
+#include "firmware/web/ros/ros_session.hpp"
 #include "firmware/web/session.hpp"
 
 struct lws;
@@ -18,7 +19,7 @@ class WebSocket {
  public:
   static constexpr Duration kSilent = std::chrono::seconds(5);
   static constexpr Duration kUnread = std::chrono::seconds(5);
-  static constexpr std::size_t kLongestRosMessage = 1U << 20U;
+  static constexpr std::size_t kLongestRosMessage = RosSession::kMostBytes;
 
   /// `session` outlives this.
   WebSocket(lws* connection, Session& session, bool ros, Instant now);

@@ -60,6 +60,9 @@ Refusal Planner::prepare(const SearchProblem& problem) noexcept {
 
   const std::span<double> mass(raw_mass_.data(), index(cells_.count()));
   fill_prior(cells_, problem.prior, mass);
+  for (Cell c = 0; problem.searched != nullptr && c < cells_.count(); ++c) {
+    mass[index(c)] = problem.searched->contains(c) ? 0.0 : mass[index(c)];
+  }
   if (const Refusal refusal = sight_.build(cells_, graph_, radii_m)) {
     return refusal;
   }

@@ -15,6 +15,7 @@
 #include "planner/search/bounds.hpp"
 #include "planner/search/plan.hpp"
 #include "planner/search/search.hpp"
+#include "planner/world/cell_set.hpp"
 #include "planner/world/cells.hpp"
 #include "planner/world/graph.hpp"
 
@@ -37,6 +38,9 @@ struct SearchProblem {
   const GraphTable* graph_table = nullptr;  ///< instead of building one; read by prepare() alone
   PriorChoice prior;
   SubPriorChoice sub_priors;  ///< given ones exclude preferred areas
+  /// Where somebody has looked and not found it: the prior is 0 there (Eq. 4 with the ideal sensor); none: nowhere.
+  /// Read by prepare() alone.
+  const CellSet* searched = nullptr;
   StaticVector<SearchAgent, limits::kAgents> agents;
   ColonyParameters colony;
 };

@@ -80,6 +80,7 @@ void write(ByteWriter& out, const SearchProgress& progress, std::size_t agents) 
     const AgentTrack& track = progress.tracks[m];
     write(out, track.position);
     out.real(track.moved_m);
+    out.real(track.before_m);
     out.i64(track.under_way.count());
     out.flag(track.path_ended);
   }
@@ -93,6 +94,7 @@ bool read(ByteReader& in, SearchProgress& progress, std::size_t agents) {
     AgentTrack& track = progress.tracks[m];
     track.position = read_point(in);
     track.moved_m = in.real();
+    track.before_m = in.real();
     track.under_way = Duration(in.i64());
     track.path_ended = in.flag();
   }

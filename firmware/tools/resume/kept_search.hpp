@@ -22,7 +22,7 @@ struct KeptSource {
 struct KeptSearch {
   /// Of the bytes. What planner and prior make of the sources is made of them again, not kept: a belief that a search
   /// changes on its way will be a new version.
-  static constexpr std::uint32_t kVersion = 2;
+  static constexpr std::uint32_t kVersion = 3;
 
   std::string world;  ///< search_world(): where the drives were
   std::vector<KeptSource> sources;

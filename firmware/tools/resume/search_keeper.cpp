@@ -190,8 +190,8 @@ Result<StateFile> SearchKeeper::begin_anew(const std::string& out, const std::st
                            to_bytes(kept_));
 }
 
-Result<void> SearchKeeper::keep_plan(const planner::Plan& plan, int generations, const EventLog& log) {
-  if (plan_taken_over_) {
+Result<void> SearchKeeper::keep_plan(const planner::Plan& plan, int generations, bool anew, const EventLog& log) {
+  if (plan_taken_over_ && !anew) {
     return {};
   }
   kept_.planned = true;

@@ -43,8 +43,9 @@ class SearchKeeper {
   /// It, with its plan; null when there is none, or it was cut off before it had one. Changes with observe().
   [[nodiscard]] const ResumedSearch* resumed() const noexcept { return plan_taken_over_ ? &kept_.search : nullptr; }
 
-  /// Keeps the plan before anybody is asked to agree to it. Waits for the disk.
-  [[nodiscard]] Result<void> keep_plan(const planner::Plan& plan, int generations, const EventLog& log);
+  /// Keeps the plan before anybody is asked to agree to it; one that was taken over only when it was made `anew`. Waits
+  /// for the disk.
+  [[nodiscard]] Result<void> keep_plan(const planner::Plan& plan, int generations, bool anew, const EventLog& log);
   /// Keeps the search once a second while it goes on, and when it comes to a turn; waits for nothing. A search that is
   /// taken up stays as it was kept until somebody agrees to go on.
   void observe(const LoopStatus& status, const EventLog& log);

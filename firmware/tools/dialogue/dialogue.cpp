@@ -1,0 +1,212 @@
+#include "firmware/tools/dialogue/dialogue.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "firmware/tools/dialogue/kept_areas.hpp"
+#include "firmware/tools/dialogue/plan_notice.hpp"
+#include "firmware/tools/dialogue/shown_documents.hpp"
+
+namespace ivo::firmware {
+namespace {
+
+using console::Document;
+using console::Kind;
+
+constexpr Duration kSearchedEvery = std::chrono::milliseconds(400);
+
+bool moves(Mode mode) { return permissions(mode).may_move; }
+
+}  // namespace
+
+Dialogue::Dialogue(MissionInputs& inputs, planner::Planner& planner, const SearchObject& object, ControlLoop& loop,
+                   console::ConsoleDesk& desk)
+    : inputs_(inputs),
+      loop_(loop),
+      desk_(desk),
+      second_(make_planner()),
+      planners_{&planner, second_.get()},
+      views_{RunView{{inputs, planner}, object}, RunView{{inputs, *second_}, object}},
+      searched_(planner.cells(), planner.belief()) {
+  preferred_ = planner.belief().has_sub_priors;
+  console::DocumentShelf& shelf = desk.documents();
+  (void)shelf.put(Document::kMission, mission_text(view()));
+  (void)shelf.put(Document::kMap, map_bytes(inputs.map));
+  (void)shelf.put(Document::kAerial, inputs.map.aerial);
+  (void)shelf.put(Document::kProbability, probability_bytes(planner));
+  (void)shelf.put(Document::kSearched, searched_bytes(planner.cells(), searched_.cells()));
+  for (const Document none : {Document::kPlan, Document::kPreviousPlan, Document::kNotice, Document::kReport}) {
+    (void)shelf.put(none, {});
+  }
+}
+
+Result<void> Dialogue::keep_areas_at(const std::string& path, bool taken_up) {
+  areas_path_ = path;
+  const Result<bool> drawn = taken_up ? draw_kept_areas(path, inputs_.file.mission, desk_) : Result<bool>(false);
+  if (!drawn) {
+    return drawn.error();
+  }
+  if (!drawn.value()) {
+    draw(inputs_.file.mission, desk_);
+  }
+  return {};
+}
+
+void Dialogue::take_up(const std::vector<std::vector<Point>>& tracks) {
+  for (std::size_t m = 0; m < tracks.size(); ++m) {
+    for (const Point place : tracks[m]) {
+      searched_.look(planners_[current_]->cells(), place, inputs_.file.mission.agents[m].sight_radius_m);
+    }
+  }
+}
+
+void Dialogue::observe(const LoopStatus& status) {
+  take_poses();
+  take_requests();
+  go_on(status);
+  look(status);
+  lay_down(status);
+}
+
+void Dialogue::take_poses() {
+  for (const console::PoseCommand& pose : desk_.poses()) {
+    OperatorCommand report(OperatorCommand::kReport);
+    report.agent = pose.agent;
+    report.place = {pose.x_m, pose.y_m};
+    (void)loop_.command(report);
+  }
+}
+
+void Dialogue::take_requests() {
+  for (const console::DeskRequest& request : desk_.requests()) {
+    if (request.kind == Kind::kEnough) {
+      (void)loop_.command(OperatorCommand::kEnough);
+    } else if (request.kind == Kind::kFound) {
+      OperatorCommand found(OperatorCommand::kFound);
+      found.agent = static_cast<std::uint8_t>(request.argument);
+      (void)loop_.command(found);
+    } else if (step_ == Step::kIdle && loop_.command(OperatorCommand::kPlanAnew)) {
+      preferred_wanted_ = request.kind == Kind::kReplan;
+      step_ = Step::kHalting;
+    }
+  }
+}
+
+void Dialogue::go_on(const LoopStatus& status) {
+  switch (step_) {
+    case Step::kHalting:
+      if (status.preparing && !moves(status.mode) && !status.finished) {
+        prepare(status);
+      }
+      break;
+    case Step::kPreparing:
+      if (maker_.done()) {
+        maker_.refusal() ? refuse(maker_.refusal()) : hand_over();
+      }
+      break;
+    case Step::kHandedOver:
+      if (status.plan_number != plan_before_) {
+        current_ = 1 - current_;
+        preferred_ = preferred_wanted_ && planners_[current_]->belief().has_sub_priors;
+        along_m_ = {};
+        step_ = Step::kIdle;
+      }
+      break;
+    case Step::kIdle:
+      break;
+  }
+  plan_before_ = status.plan_number;
+}
+
+// Who has set off starts from where they are, and what was searched is not searched again.
+void Dialogue::prepare(const LoopStatus& status) {
+  Mission& mission = inputs_.file.mission;
+  agents_before_ = mission.agents;
+  mission.agents = agents_with(mission.agents, desk_.areas(), preferred_wanted_, slots_);
+  planner::SearchProblem problem = inputs_.problem();
+  problem.sub_priors = {};
+  if (status.search_started) {
+    problem.searched = &searched_.cells();
+    for (std::size_t m = 0; m < problem.agents.size(); ++m) {
+      problem.agents[m].body.start = status.tracks[m].position;
+    }
+  }
+  maker_.begin(spare(), problem);
+  step_ = Step::kPreparing;
+}
+
+void Dialogue::hand_over() {
+  OperatorCommand with(OperatorCommand::kPlanWith);
+  with.planner = &spare();
+  if (loop_.command(with)) {
+    step_ = Step::kHandedOver;
+  }
+}
+
+void Dialogue::refuse(const planner::Refusal& refusal) {
+  const PlanNotice notice = notice_of(refusal, inputs_, slots_);
+  (void)desk_.documents().put(Document::kNotice, notice_text(notice, ++notices_));
+  inputs_.file.mission.agents = agents_before_;
+  (void)loop_.command(OperatorCommand::kPlanAsBefore);
+  step_ = Step::kIdle;
+}
+
+void Dialogue::look(const LoopStatus& status) {
+  if (!status.search_started || status.search != SearchState::kRunning) {
+    return;
+  }
+  for (std::size_t m = 0; m < inputs_.file.mission.agents.size(); ++m) {
+    const AgentSpec& agent = inputs_.file.mission.agents[m];
+    const bool present =
+        agent.kind == AgentKind::kRobot || agent.motion == PersonMotion::kSimulated || status.report_age[m].has_value();
+    if (present) {
+      searched_.look(planners_[current_]->cells(), status.tracks[m].position, agent.sight_radius_m);
+    }
+  }
+}
+
+void Dialogue::lay_down(const LoopStatus& status) {
+  console::DocumentShelf& shelf = desk_.documents();
+  const planner::Planner& planner = *planners_[current_];
+  if (const console::AreaBoard board = desk_.areas(); board.revision() != areas_shown_) {
+    areas_shown_ = board.revision();
+    (void)shelf.put(Document::kAreas, areas_text(board, *planners_[0]));
+    const Result<void> kept = keep_areas(areas_path_, board, inputs_.file.mission);
+    failure_ = kept ? std::nullopt : std::optional(kept.error());
+  }
+  const bool due = status.at - searched_shown_at_ >= kSearchedEvery || status.finished;
+  if (searched_.count() != searched_shown_ && due) {
+    searched_shown_ = searched_.count();
+    searched_shown_at_ = status.at;
+    (void)shelf.put(Document::kSearched, searched_bytes(planner.cells(), searched_.cells()));
+  }
+  if (step_ != Step::kHandedOver) {
+    lay_down_plan();
+  }
+}
+
+void Dialogue::lay_down_plan() {
+  const ShownPlan& shown = loop_.shown_plan();
+  const PlanMark mark{shown.number, shown.generation, shown.ready};
+  if (shown.number == 0 || mark == plan_shown_) {
+    return;
+  }
+  console::DocumentShelf& shelf = desk_.documents();
+  if (mark.number != plan_shown_.number && !plan_ready_.empty()) {
+    (void)shelf.put(Document::kPreviousPlan, plan_ready_);
+  }
+  plan_shown_ = mark;
+  std::string text = plan_text(view(), shown, preferred_);
+  if (mark.ready) {
+    plan_ready_ = text;
+  }
+  (void)shelf.put(Document::kPlan, std::move(text));
+}
+
+void Dialogue::complete(console::Status& status) const {
+  status.preparing = preparing() ? 1 : status.preparing;
+  status.with_preferences = preferred_ ? 1 : 0;
+  status.searched_mass = std::min(1.0, searched_.mass());
+}
+
+}  // namespace ivo::firmware
