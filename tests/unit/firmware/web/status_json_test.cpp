@@ -37,7 +37,7 @@ TEST(StatusText, SaysWhatIsKnown) {
   status.agent[1] = {
       .x_m = 1.0, .y_m = 2.5, .moved_m = 3.0, .left_m = 4.0, .path_ended = 1, .reported = 1, .report_age_s = 0.5};
   status.searched_mass = 0.25;
-  status.pause_cause = console::PauseCause::kBeatLost;
+  status.pause_cause = 2;
   const Json json = parsed_status(view_with(status), {}, Instant(10s) + 250ms);
   EXPECT_EQ(json.member("controller")->text, "connected");
   EXPECT_EQ(json.member("controller_age_s")->real, 0.25);
