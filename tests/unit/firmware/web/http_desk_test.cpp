@@ -1,0 +1,222 @@
+#include "firmware/web/http_desk.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/scratch_folder.hpp"
+
+namespace ivo::firmware::web {
+namespace {
+
+using std::chrono_literals::operator""s;
+
+class HttpDeskTest : public testing::Test {
+ protected:
+  HttpRequest request(std::string method, std::string path) const {
+    HttpRequest request;
+    request.method = std::move(method);
+    request.path = std::move(path);
+    request.host = "robot:8080";
+    return request;
+  }
+  HttpRequest pairing(const std::string& code) const {
+    HttpRequest pairing = request("POST", "/pair");
+    pairing.origin = "http://robot:8080";
+    pairing.body = "{\"code\":\"" + code + "\",\"name\":\"Ana\"}";
+    return pairing;
+  }
+  HttpAnswer answer(const HttpRequest& request) { return desk_.answer(request, now_); }
+  static std::string header(const HttpAnswer& answer, std::string_view name) {
+    for (const auto& [key, value] : answer.headers) {
+      if (key == name) {
+        return value;
+      }
+    }
+    return "";
+  }
+  std::string paired_token() {
+    const std::string cookie = header(answer(pairing(code_.digits())), "set-cookie:");
+    return cookie.substr(4, 64);
+  }
+
+  ScratchFolder folder_;
+  ScratchFolder leaflet_;
+  Instant now_{100s};
+  const std::string page_ = folder_.put("index.html", "<!doctype html>");
+  const std::string hidden_ = folder_.put(".secret.js", "hidden");
+  const std::string other_ = folder_.put("tokens", "of nobody's business");
+  Site site_ = std::move(Site::read(folder_.path(), leaflet_.path())).value();
+  std::vector<std::string> said_;
+  Hub hub_{folder_.path("nobody"), [](const std::string&) {}};
+  TokenStore tokens_ = std::move(TokenStore::open(folder_.path("state"))).value();
+  PairingCode code_;
+  HttpDesk desk_{
+      site_, hub_, tokens_, code_, {.tls = false, .origins = {"http://tablet:1"}}, [this](const std::string& line) {
+        said_.push_back(line);
+      }};
+};
+
+TEST_F(HttpDeskTest, GivesThePageToEverybodyAndNothingElse) {
+  EXPECT_EQ(answer(request("GET", "/")).status, 200);
+  EXPECT_EQ(answer(request("GET", "/")).type, "text/html; charset=utf-8");
+  for (const char* path : {"/tokens", "/.secret.js", "/index.html", "/grid/map", "/session", "/state/tokens", ""}) {
+    EXPECT_EQ(answer(request("GET", path)).status, 403) << path;
+  }
+  EXPECT_EQ(answer(request("DELETE", "/")).status, 405);
+}
+
+TEST_F(HttpDeskTest, SendsAFileOnlyWhenItIsNew) {
+  HttpRequest again = request("GET", "/");
+  again.etag = header(answer(again), "etag:");
+  EXPECT_EQ(answer(again).status, 304);
+  EXPECT_EQ(answer(again).body, nullptr);
+  again.etag = "\"other\"";
+  EXPECT_EQ(answer(again).status, 200);
+}
+
+TEST_F(HttpDeskTest, PairsWithTheCodeAndSaysSo) {
+  const HttpAnswer wrong = answer(pairing("nothex"));
+  EXPECT_EQ(wrong.status, 403);
+  EXPECT_EQ(*wrong.body, R"({"error":"wrong_code","left":4})");
+  const std::string token = paired_token();
+  EXPECT_EQ(tokens_.find(token)->role, Role::kOperator);
+  ASSERT_EQ(said_.size(), 2U);
+  EXPECT_EQ(said_[1], "paired: Ana; the code is now " + code_.digits());
+  HttpRequest grid = request("GET", "/grid/map");
+  grid.token = token;
+  EXPECT_EQ(answer(grid).status, 404);
+  EXPECT_EQ(hub_.refusals().wrong_code(), 1U);
+}
+
+TEST_F(HttpDeskTest, PairsNobodyFromAnotherOrigin) {
+  for (const char* origin : {"", "http://evil.example", "https://robot:8080"}) {
+    HttpRequest foreign = pairing(code_.digits());
+    foreign.origin = origin;
+    EXPECT_EQ(answer(foreign).status, 403) << origin;
+  }
+  EXPECT_EQ(hub_.refusals().foreign_origin(), 3U);
+  HttpRequest named = pairing(code_.digits());
+  named.origin = "http://tablet:1";
+  EXPECT_EQ(answer(named).status, 204);
+}
+
+TEST_F(HttpDeskTest, MarksItsCookieSecureOverTls) {
+  HttpDesk desk(site_, hub_, tokens_, code_, {.tls = true, .origins = {}}, [](const std::string&) {});
+  HttpRequest secure = pairing(code_.digits());
+  secure.origin = "https://robot:8080";
+  EXPECT_TRUE(header(desk.answer(secure, now_), "set-cookie:").ends_with("; Secure"));
+}
+
+TEST_F(HttpDeskTest, LetsInWhoIsPairedFromOurPageAndProgramsWithTheirToken) {
+  const std::string token = paired_token();
+  HttpRequest visit = request("GET", "/session");
+  visit.token = token;
+  EXPECT_FALSE(desk_.visitor(visit).has_value());  // a cookie alone may be sent by any page
+  visit.origin = "http://robot:8080";
+  EXPECT_EQ(desk_.visitor(visit)->name, "Ana");
+  visit.origin = "http://evil.example";
+  EXPECT_FALSE(desk_.visitor(visit).has_value());
+  HttpRequest program = request("GET", "/");
+  program.bearer = token;
+  EXPECT_TRUE(desk_.visitor(program).has_value());
+  program.origin = "http://evil.example";
+  EXPECT_FALSE(desk_.visitor(program).has_value());
+  program.origin = "";
+  program.bearer = "wrong";
+  EXPECT_FALSE(desk_.visitor(program).has_value());
+}
+
+TEST_F(HttpDeskTest, ShowsTheCodeOnThisMachineAlone) {
+  HttpRequest screen = request("GET", "/screen");
+  screen.from_this_machine = true;
+  EXPECT_EQ(answer(screen).status, 403);
+  screen.host = "localhost:8080";
+  EXPECT_NE(answer(screen).body->find(code_.digits()), std::string::npos);
+  screen.from_this_machine = false;
+  EXPECT_EQ(answer(screen).status, 403);
+}
+
+TEST_F(HttpDeskTest, TakesBodiesWhereOneBelongs) {
+  EXPECT_EQ(HttpDesk::longest_body(request("POST", "/pair")), HttpDesk::kLongestPairing);
+  EXPECT_EQ(HttpDesk::longest_body(request("PUT", "/areas.geojson")), HttpDesk::kLongestAreas);
+  EXPECT_EQ(HttpDesk::longest_body(request("POST", "/")), 0U);
+  EXPECT_EQ(HttpDesk::longest_body(request("GET", "/pair")), 0U);
+}
+
+TEST(SiteFolder, IsRefusedWithoutAPage) {
+  const ScratchFolder empty;
+  EXPECT_EQ(Site::read(empty.path(), empty.path()).error().message,
+            empty.path() + ": holds no index.html; expected the page's files");
+  EXPECT_TRUE(Site::read(empty.path("none"), empty.path()).error().message.starts_with(empty.path("none")));
+}
+
+class HubTest : public testing::Test {
+ protected:
+  HubTest() { hub_.turn(now_); }
+  std::string next(Session& session) {
+    const std::optional<Frame> frame = session.next(now_);
+    return frame ? frame->bytes : "";
+  }
+
+  const ScratchFolder nowhere_;
+  Instant now_{100s};
+  Hub hub_{nowhere_.path("nobody"), [](const std::string&) {}};
+  const Paired ana_{.hash = "a", .role = Role::kOperator, .name = "Ana"};
+};
+
+TEST_F(HubTest, GreetsThenSaysTheStatus) {
+  Session& session = hub_.came(ana_, false, now_);
+  EXPECT_EQ(next(session), R"({"type":"hello","protocol":1,"screen":1,"name":"Ana","may_operate":true})");
+  EXPECT_TRUE(next(session).starts_with(R"({"type":"status","controller":"none")"));
+  EXPECT_EQ(next(session), "");
+}
+
+TEST_F(HubTest, SaysAStatusTwiceASecondAndWhenSomethingIsNew) {
+  Session& session = hub_.came(ana_, false, now_);
+  int statuses = 0;
+  for (int i = 0; i < 100; ++i) {
+    now_ += std::chrono::milliseconds(10);
+    hub_.turn(now_);
+    statuses += next(session).starts_with(R"({"type":"status")") ? 1 : 0;
+  }
+  EXPECT_GE(statuses, 2);
+  EXPECT_LE(statuses, 4);
+}
+
+TEST_F(HubTest, AnswersEveryMessageButForAFloodWithoutForm) {
+  Session& session = hub_.came(ana_, false, now_);
+  (void)next(session);
+  session.hear(R"({"seq":1,"do":"beat"})", false, now_);
+  EXPECT_EQ(next(session), R"({"type":"answer","seq":1,"verdict":"accepted"})");
+  for (int i = 0; i < 10'000; ++i) {
+    session.hear("nonsense", false, now_);
+  }
+  EXPECT_FALSE(session.overfull());
+  EXPECT_EQ(hub_.refusals().of(Verdict::kMalformed), 10'000U);
+}
+
+TEST_F(HubTest, IsFreshWhenABeatHasComeAndAStatusGoneOut) {
+  Session& session = hub_.came(ana_, false, now_);
+  (void)next(session);
+  session.hear(R"({"seq":1,"do":"beat"})", false, now_);
+  EXPECT_FALSE(session.liveness().fresh(now_));
+  (void)next(session);
+  session.written(now_);  // the answer: that is no status
+  EXPECT_FALSE(session.liveness().fresh(now_));
+  (void)next(session);
+  session.written(now_);
+  EXPECT_TRUE(session.liveness().fresh(now_));
+  EXPECT_TRUE(session.liveness().fresh(now_ + 1s));
+  EXPECT_FALSE(session.liveness().fresh(now_ + 1s + Duration(1)));
+}
+
+TEST_F(HubTest, ShowsLayersToEveryPageOnce) {
+  Session& session = hub_.came(ana_, false, now_);
+  (void)next(session);
+  (void)next(session);
+  hub_.show({.name = LayerName::kScan, .at = now_, .points = {{1, 2}}, .heading_rad = 0.0});
+  EXPECT_EQ(next(session), R"({"type":"layer","name":"scan","age_s":0,"points_m":[[1,2]]})");
+  EXPECT_EQ(next(session), "");
+}
+
+}  // namespace
+}  // namespace ivo::firmware::web
