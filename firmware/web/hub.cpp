@@ -68,7 +68,8 @@ void Hub::turn(Instant now) {
 }
 
 void Hub::say_what_changed() {
-  if (view().link != said_link_) {
+  const bool there = view().link == LinkState::kConnected || view().link == LinkState::kSilent;
+  if (view().link != said_link_ && (there || !link_.complaint().empty())) {
     said_link_ = view().link;
     said_(said_link_ == LinkState::kConnected ? "the controller is there"
           : said_link_ == LinkState::kSilent  ? "the controller is silent"

@@ -60,7 +60,9 @@ std::optional<std::string> PageSession::next_document() {
   for (std::size_t i = 0; i < messages.size(); ++i) {
     if (messages[i].revision != told_[i]) {
       told_[i] = messages[i].revision;
-      return *messages[i].text;
+      if (!messages[i].text->empty()) {
+        return *messages[i].text;
+      }
     }
   }
   return std::nullopt;

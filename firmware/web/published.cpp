@@ -16,7 +16,7 @@ bool is_grid(console::Document document) {
 std::string message_of(console::Document document, const KnownDocument& known) {
   const std::string_view name = name_of(document);
   if (is_grid(document)) {
-    return grid_text(name, known.revision);
+    return known.there() ? grid_text(name, known.revision) : "";
   }
   // It becomes a part of a message of ours: what is no JSON would spoil it.
   const bool right = known.there() && parse_json(*known.bytes, std::string(name), "JSON").ok();

@@ -16,7 +16,7 @@ class Published {
  public:
   struct Message {
     std::uint32_t revision = 0;               ///< 0: it never came
-    std::shared_ptr<const std::string> text;  ///< of the document, or that there is a new grid
+    std::shared_ptr<const std::string> text;  ///< of the document, or that there is a new grid; empty: nothing to tell
   };
 
   /// Composes what is new. Cost: to parse it; a text that is no JSON is as good as none.

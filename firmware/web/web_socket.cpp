@@ -69,8 +69,9 @@ bool WebSocket::writable(Instant now) {
   }
   if (now - pinged_at_ >= (ros_ ? kPingRosEvery : kPingEvery)) {
     pinged_at_ = now;
-    std::array<unsigned char, LWS_PRE + 1> empty{};
-    return lws_write(connection_, empty.data() + LWS_PRE, 0, LWS_WRITE_PING) >= 0;
+    // Not empty: of an answer that is, the library says nothing.
+    std::array<unsigned char, LWS_PRE + 1> ping{};
+    return lws_write(connection_, ping.data() + LWS_PRE, 1, LWS_WRITE_PING) >= 0;
   }
   const std::optional<Frame> frame = session_.next(now);
   if (!frame) {
