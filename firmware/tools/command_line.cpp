@@ -14,7 +14,7 @@
 #include "firmware/files/number_text.hpp"
 #include "firmware/tools/bench/bench_command.hpp"
 #include "firmware/tools/colonies.hpp"
-#include "firmware/tools/console_command.hpp"
+#include "firmware/tools/console/console_command.hpp"
 #include "firmware/tools/dbc_command.hpp"
 #include "firmware/tools/doctor/doctor_options.hpp"
 #include "firmware/tools/exit_status.hpp"
@@ -240,7 +240,6 @@ CLI::App* add_doctor(CLI::App& app, doctor::Options& options) {
   return command;
 }
 
-// In the order of ConsoleVerb.
 CLI::App* add_console(CLI::App& app, ConsoleOptions& options) {
   CLI::App* console = app.add_subcommand("console", "Ask a controller that runs, or tell it something");
   console->require_subcommand(1);
@@ -249,10 +248,33 @@ CLI::App* add_console(CLI::App& app, ConsoleOptions& options) {
     command->add_option("--socket", options.socket, "As given to ivo run --console (default " + options.socket + ")")
         ->check(not_empty);
     command->callback([&options, verb] { options.verb = verb; });
+    return command;
+  };
+  const auto add_agent = [&](CLI::App* command) {
+    command->add_option("AGENT", options.agent, "Name of an agent of the mission")->required()->check(not_empty);
+    return command;
+  };
+  const auto add_planning = [&](CLI::App* command) {
+    command->add_flag("!--no-wait", options.wait, "Do not wait until the plan is there");
   };
   add("status", "What it does, where everybody is, what it asks, counters", ConsoleVerb::kStatus);
-  add("consent", "Agree to the plans: the robot moves", ConsoleVerb::kConsent);
+  add("plan", "The plan in figures, beside the one before it", ConsoleVerb::kPlan);
+  add("areas", "The areas that are drawn; with a file, draw its areas instead", ConsoleVerb::kAreas)
+      ->add_option("FILE", options.areas, "GeoJSON in metres of the map")
+      ->check(not_empty);
+  add_planning(add("init", "Plan anew without preferred areas; a robot that moves pauses", ConsoleVerb::kInit));
+  add_planning(
+      add("replan", "Plan anew with the areas that are drawn; a robot that moves pauses", ConsoleVerb::kReplan));
+  add("enough", "Take the best plan so far", ConsoleVerb::kEnough);
+  add("accept", "The plan is good; nothing moves yet", ConsoleVerb::kAccept);
+  add("start", "The plan is accepted: the robot moves", ConsoleVerb::kStart);
+  add("consent", "Accept and start in one", ConsoleVerb::kConsent);
   add("refuse", "Disagree: the run ends", ConsoleVerb::kRefuse);
+  add_agent(add("found", "The object is found, by AGENT", ConsoleVerb::kFound));
+  CLI::App* position = add_agent(add("position", "The person AGENT is at X Y", ConsoleVerb::kPosition));
+  position->add_option("X", options.x_m, "Metres from the map's left border")->required();
+  position->add_option("Y", options.y_m, "Metres from the map's lower border")->required();
+  add("pause", "The robot ramps down and stands until somebody agrees anew", ConsoleVerb::kPause);
   add("stop", "The robot ramps down, the run ends", ConsoleVerb::kStop);
   add("clear", "After a fault: start the drives up again; nothing moves before consent anew", ConsoleVerb::kClear);
   return console;

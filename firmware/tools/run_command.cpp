@@ -169,6 +169,12 @@ int run(const RunOptions& given) {
   std::optional<RunConsole> console;
   if (listener.value()) {
     console.emplace(std::move(*listener.value()), *loop, inputs, planner, object);
+    if (const Result<void> drawn =
+            console->dialogue().keep_areas_at(options.out + "/areas.geojson", keeper.value()->taken_up());
+        !drawn) {
+      running_loop.store(nullptr);
+      return refuse_in_order(drawn.error());
+    }
     console->dialogue().take_up(log.value().tracks());
   }
   RunSession session(options, view, *loop, *world.value(), std::move(real_time).value(), std::move(log).value(),

@@ -301,6 +301,10 @@ void RunSession::observe_console(const LoopStatus& status) {
     return;
   }
   console_->dialogue().observe(status);
+  if (const std::optional<Error>& failure = console_->dialogue().failure(); failure && !areas_not_kept_) {
+    note({failure->message + "; a run that is cut off now loses the areas that are drawn"});
+    areas_not_kept_ = true;
+  }
   const RunView& view = console_->dialogue().view();
   if (&view != view_) {
     view_ = &view;

@@ -81,6 +81,7 @@ class RunSession {
   bool plan_not_kept_ = false;    // when it was shown
   bool write_failed_ = false;     // anything, at any time
   bool keeping_failed_ = false;
+  bool areas_not_kept_ = false;
 };
 
 }  // namespace ivo::firmware

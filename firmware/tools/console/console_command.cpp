@@ -114,8 +114,8 @@ int wait_for_plan(ConsoleClient& client, std::uint32_t before, const std::string
       return exit_status::kFaultOrStop;
     }
     if (now.plan_number != before && line.due(now.generation, std::max(1, now.generations))) {
-      line.draw("planning", format("%d of %d generations, ET %.1f s", now.generation, now.generations,
-                                   now.expected_time_s));
+      line.draw("planning",
+                format("%d of %d generations, ET %.1f s", now.generation, now.generations, now.expected_time_s));
     }
     if (now.plan_number != before && now.plan_ready != 0 && now.preparing == 0) {
       line.end();

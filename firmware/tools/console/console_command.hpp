@@ -29,8 +29,8 @@ struct ConsoleOptions {
   std::string agent;                             ///< of kFound and kPosition, by name
   double x_m = 0.0;                              ///< of kPosition
   double y_m = 0.0;
-  std::string areas;   ///< GeoJSON of kAreas that takes the place of what is drawn; empty: what is drawn is shown
-  bool wait = true;    ///< of kInit and kReplan: until the plan is there
+  std::string areas;  ///< GeoJSON of kAreas that takes the place of what is drawn; empty: what is drawn is shown
+  bool wait = true;   ///< of kInit and kReplan: until the plan is there
 };
 
 /// Returns the exit status: 0, 1 when the controller refuses, 2 when there is none or the input is wrong.

@@ -100,7 +100,8 @@ void show_status(const Status& status, const std::vector<std::string>& names) {
   if (const auto end = std::ranges::find(status.fault, '\0'); end != status.fault.begin()) {
     say("fault", std::string(status.fault.begin(), end));
   }
-  if (status.pause_cause != 0 && status.search_started != 0 && status.mode != static_cast<std::uint8_t>(Mode::kSearching)) {
+  if (status.pause_cause != 0 && status.search_started != 0 &&
+      status.mode != static_cast<std::uint8_t>(Mode::kSearching)) {
     say("paused", pause_text(status));
   }
   say("planner", format("generation %d of %d", status.generation, status.generations) +
@@ -113,7 +114,8 @@ void show_status(const Status& status, const std::vector<std::string>& names) {
   }
   for (std::size_t i = 0; i < std::min<std::size_t>(status.agents, status.agent.size()); ++i) {
     const console::AgentStatus& agent = status.agent[i];
-    say(i == 0 ? "agents" : "", (i < names.size() ? names[i] + " " : std::string()) + place_text({agent.x_m, agent.y_m}) + format(", %.1f m gone", agent.moved_m) +
+    say(i == 0 ? "agents" : "", (i < names.size() ? names[i] + " " : std::string()) +
+                                    place_text({agent.x_m, agent.y_m}) + format(", %.1f m gone", agent.moved_m) +
                                     (agent.path_ended != 0 ? ", at the end of its path" : ""));
   }
   say("plan", "number " + std::to_string(status.plan_number) +

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "firmware/files/text_file.hpp"
+#include "firmware/tools/dialogue/kept_areas.hpp"
 #include "firmware/tools/dialogue/plan_notice.hpp"
 #include "firmware/tools/dialogue/shown_documents.hpp"
 
@@ -29,7 +29,6 @@ Dialogue::Dialogue(MissionInputs& inputs, planner::Planner& planner, const Searc
       views_{RunView{{inputs, planner}, object}, RunView{{inputs, *second_}, object}},
       searched_(planner.cells(), planner.belief()) {
   preferred_ = planner.belief().has_sub_priors;
-  draw(inputs.file.mission, desk);
   console::DocumentShelf& shelf = desk.documents();
   (void)shelf.put(Document::kMission, mission_text(view()));
   (void)shelf.put(Document::kMap, map_bytes(inputs.map));
@@ -39,6 +38,18 @@ Dialogue::Dialogue(MissionInputs& inputs, planner::Planner& planner, const Searc
   for (const Document none : {Document::kPlan, Document::kPreviousPlan, Document::kNotice, Document::kReport}) {
     (void)shelf.put(none, {});
   }
+}
+
+Result<void> Dialogue::keep_areas_at(const std::string& path, bool taken_up) {
+  areas_path_ = path;
+  const Result<bool> drawn = taken_up ? draw_kept_areas(path, inputs_.file.mission, desk_) : Result<bool>(false);
+  if (!drawn) {
+    return drawn.error();
+  }
+  if (!drawn.value()) {
+    draw(inputs_.file.mission, desk_);
+  }
+  return {};
 }
 
 void Dialogue::take_up(const std::vector<std::vector<Point>>& tracks) {
@@ -160,6 +171,8 @@ void Dialogue::lay_down(const LoopStatus& status) {
   if (const console::AreaBoard board = desk_.areas(); board.revision() != areas_shown_) {
     areas_shown_ = board.revision();
     (void)shelf.put(Document::kAreas, areas_text(board, *planners_[0]));
+    const Result<void> kept = keep_areas(areas_path_, board, inputs_.file.mission);
+    failure_ = kept ? std::nullopt : std::optional(kept.error());
   }
   const bool due = status.at - searched_shown_at_ >= kSearchedEvery || status.finished;
   if (searched_.count() != searched_shown_ && due) {

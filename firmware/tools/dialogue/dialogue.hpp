@@ -6,10 +6,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "config/base/result.hpp"
 #include "firmware/console/console_desk.hpp"
 #include "firmware/loop/control_loop.hpp"
 #include "firmware/mission/searched_map.hpp"
@@ -27,6 +29,9 @@ class Dialogue {
   Dialogue(MissionInputs& inputs, planner::Planner& planner, const SearchObject& object, ControlLoop& loop,
            console::ConsoleDesk& desk);
 
+  /// Before the first observe(): the areas at `path`, where they are kept from now on, take the place of the mission's
+  /// if the search is `taken_up`. Refuses a file there that holds none.
+  [[nodiscard]] Result<void> keep_areas_at(const std::string& path, bool taken_up);
   /// What an earlier run of this search has seen, by where its agents were.
   void take_up(const std::vector<std::vector<Point>>& tracks);
 
@@ -38,6 +43,8 @@ class Dialogue {
   [[nodiscard]] bool preparing() const noexcept { return step_ != Step::kIdle; }
   /// What was read, and the planner of the loop's plan; changes with observe().
   [[nodiscard]] const RunView& view() const noexcept { return views_[current_]; }
+  /// Why the areas are not kept; none while they are.
+  [[nodiscard]] const std::optional<Error>& failure() const noexcept { return failure_; }
   void show_report(std::string report) { (void)desk_.documents().put(console::Document::kReport, std::move(report)); }
 
  private:
@@ -86,6 +93,8 @@ class Dialogue {
   std::uint32_t plan_before_ = 0;
   std::uint32_t notices_ = 0;
   std::uint32_t areas_shown_ = 0;
+  std::string areas_path_;
+  std::optional<Error> failure_;
   PlanMark plan_shown_;
   std::string plan_ready_;                         // the last that was planned to its end, as a document
   std::array<double, limits::kAgents> along_m_{};  // of its path, each agent

@@ -1,0 +1,58 @@
+// What is to be agreed now: where the plan stands, what it asks, and why the robot stands.
+import { by_id, on_press, set_attribute, set_text, show } from "./dom.js";
+import { advice_of } from "./state_words.js";
+import { agents_of, is_operator, stage_of } from "./judge.js";
+import { model } from "./model.js";
+import { show_asked } from "./asked.js";
+import { show_facts } from "./facts.js";
+import { show_progress_line } from "./progress_line.js";
+import { tell } from "./tell.js";
+import { number, say } from "./words.js";
+
+function show_progress() {
+  const { mode, plan } = model.status ?? {};
+  const planning = mode === "planning";
+  show(by_id("progress"), planning);
+  show_progress_line();
+  if (!planning) return;
+  const bar = by_id("progress-bar");
+  if (plan.preparing || !(plan.generations > 0)) bar.removeAttribute("value");
+  else bar.value = plan.generation / plan.generations;
+  set_attribute(bar, "aria-label", say("progress.label"));
+  set_text(by_id("progress-text"), plan.preparing ? say("progress.preparing") :
+    say("progress.step", { done: number(plan.generation), all: number(plan.generations) }));
+}
+
+function show_pause() {
+  const status = model.status;
+  const stands = status?.search?.started && stage_of(model) !== "search" && stage_of(model) !== "end";
+  const cause = status?.pause_cause ?? "none";
+  const shown = Boolean(stands) && cause !== "none" && stage_of(model) !== "fault";
+  show(by_id("pause"), shown);
+  if (shown) set_text(by_id("pause-text"), say(`pause.${cause}`));
+}
+
+export function show_agree() {
+  const stage = stage_of(model);
+  if (document.body.dataset.stage !== stage) by_id("page-search").scrollTop = 0;
+  set_attribute(document.body, "data-stage", stage);
+  set_attribute(document.body, "data-started", model.status?.search?.started && stage !== "end" ? "yes" : "no");
+  const [title, text] = advice_of(model);
+  const values = {
+    robot: agents_of(model)[0]?.name ?? "IVO",
+    person: agents_of(model).find((agent) => agent.kind === "person")?.name ?? say("somebody"),
+    finder: agents_of(model)[model.status?.search?.finder]?.name ?? "",
+    number: model.status?.plan?.number ?? "",
+    fault: model.status?.fault ?? "",
+  };
+  set_text(by_id("now-title"), say(title, values));
+  set_text(by_id("now-text"), say(text, values));
+  show_progress();
+  show_pause();
+  show_facts(stage === "plan" || stage === "agree");
+  show(by_id("again"), stage === "agree" || stage === "search");
+  show(by_id("end"), stage !== "end" && stage !== "wait" && is_operator(model));
+  show_asked();
+}
+
+on_press(by_id("end-run"), () => tell("end"));

@@ -1,0 +1,39 @@
+// The plan in figures, beside those of the plan before.
+import { by_id, make } from "./dom.js";
+import { agents_of } from "./judge.js";
+import { model } from "./model.js";
+import { percent, say, seconds } from "./words.js";
+
+let drawn = "";
+
+function rows_of(plan, agents) {
+  const rows = [];
+  const row = (id, name, value_of) => rows.push({ id, name, now: value_of(plan), before: value_of(model.documents.previous_plan) });
+  const or_none = (value, words) => (value === null || value === undefined ? "–" : words(value));
+  row("et", say("facts.et"), (each) => or_none(each?.score?.expected_time_s, (value) => seconds(value, 1)));
+  agents.forEach((agent, i) => {
+    if (agent.kind !== "person") return;
+    row(`preferred-${i}`, say("facts.preferred", { name: agent.name }), (each) => or_none(each?.agents?.[i]?.preferred_share, percent));
+  });
+  row("gap", say("facts.gap"), (each) => or_none(each?.gap, percent));
+  return rows;
+}
+
+/// `shown` false: nothing is compared now.
+export function show_facts(shown) {
+  const plan = model.documents.plan;
+  by_id("facts").hidden = !shown || !plan;
+  if (!shown || !plan) return;
+  const previous = model.documents.previous_plan;
+  const rows = rows_of(plan, agents_of(model));
+  const now = JSON.stringify([rows, previous?.number, document.documentElement.lang]);
+  if (now === drawn) return;
+  drawn = now;
+  by_id("facts").classList.toggle("alone", !previous);
+  by_id("facts-before").hidden = !previous;
+  by_id("facts-rows").replaceChildren(...rows.map((row) => {
+    const cells = [make("th", { scope: "row", text: row.name }), make("td", { class: "figure", text: row.now })];
+    if (previous) cells.push(make("td", { class: "figure before", text: row.before }));
+    return make("tr", { id: `fact-${row.id}` }, ...cells);
+  }));
+}

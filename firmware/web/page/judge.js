@@ -1,0 +1,72 @@
+// What follows from the model, without a page: who may do what, how old the data is, what stage the search is in.
+
+export const kOldAfterS = 1;
+
+export function heard_age_s(model, now_ms) {
+  return model.heard_at_ms === null ? Infinity : Math.max(0, (now_ms - model.heard_at_ms) / 1000);
+}
+
+/// Of what the page shows about the robot: server and controller are one chain.
+export function data_age_s(model, now_ms) {
+  const heard_s = heard_age_s(model, now_ms);
+  if (model.status === null) return Infinity;
+  const controller_s = model.status.controller_age_s ?? 0;
+  return heard_s + controller_s;
+}
+
+export function is_old(model, now_ms) {
+  return model.link !== "open" || !has_controller(model) || data_age_s(model, now_ms) > kOldAfterS;
+}
+
+export function has_controller(model) {
+  return model.status?.controller === "connected" || model.status?.controller === "silent";
+}
+
+export function is_operator(model) {
+  return model.link === "open" && model.hello !== null && model.status?.operator?.screen === model.hello.screen;
+}
+
+export function agents_of(model) {
+  return model.documents.mission?.agents ?? [];
+}
+
+export function areas_of(model) {
+  return model.documents.areas?.areas ?? [];
+}
+
+/// plan, agree, search, fault, end; or wait, before anything is known.
+export function stage_of(model) {
+  const status = model.status;
+  if (status === null || status.controller === "none" || status.controller === undefined) return "wait";
+  if (status.mode === "fault") return "fault";
+  if (status.finished || status.mode === "done" || status.search.state !== "running") return "end";
+  if (status.mode === "searching" || status.mode === "pausing" || status.mode === "stopping") return "search";
+  if (status.mode === "planning" || (!status.plan.ready && status.mode !== "awaiting consent")) return "plan";
+  return "agree";
+}
+
+/// Why nobody can start from this screen now: a key of the words, or null.
+export function no_start_because(model, now_ms) {
+  const status = model.status;
+  if (model.link !== "open" || status === null) return "start.no_server";
+  if (status.controller !== "connected") return "start.no_controller";
+  if (is_old(model, now_ms)) return "start.old";
+  if (!is_operator(model)) return "start.not_operator";
+  if (status.stop_held) return "start.stop_held";
+  if (status.asks !== "consent") return "start.not_asked";
+  if (!status.plan.accepted) return "start.not_accepted";
+  if (!status.start_fresh) return "start.not_fresh";
+  return null;
+}
+
+/// How far an agent has gone on the plan that is shown; null: nobody knows.
+export function done_m(model, agent) {
+  const { status, documents } = model;
+  const plan = documents.plan;
+  const state = status?.agents?.[agent];
+  const path = plan?.agents?.[agent];
+  if (!state || !path || !status.search.started || plan.number !== status.plan.number || !status.plan.ready) return null;
+  if (state.path_ended) return path.length_m;
+  if (!(state.left_m > 0)) return null;
+  return Math.min(Math.max(path.length_m - state.left_m, 0), path.length_m);
+}
