@@ -22,7 +22,7 @@ from mission_files import BUILD_DIR, IVO, MISSION, write_mission
 
 CONSOLE = os.path.join(BUILD_DIR, "ivo-console")
 CLIENT = os.path.join(HERE, "ros_client")
-PATIENCE_S = 60
+PATIENCE_S = 20
 # A map of ROS whose frame begins elsewhere: free, with an occupied corner and an unknown one.
 SIDE_PX = 48
 ORIGIN = (-3.0, 7.0)
@@ -105,11 +105,17 @@ class Ros(unittest.TestCase):
         write_ros_map(self.folder)
         self.controller = self.start([IVO, "run", write_mission(self.folder, mission), "--console", self.socket, "--no-real-time",
                                       "--out", os.path.join(self.folder, "out")], stdout=subprocess.DEVNULL)
-        server = self.start([CONSOLE, "--socket", self.socket, "--port", "0", "--state", self.state], stdout=subprocess.PIPE, text=True)
+        page = os.path.join(self.folder, "page")  # the page is another test's
+        os.makedirs(page)
+        with open(os.path.join(page, "index.html"), "w", encoding="utf-8") as file:
+            file.write("<!DOCTYPE html>")
+        server = self.start([CONSOLE, "--socket", self.socket, "--port", "0", "--state", self.state, "--web", page], stdout=subprocess.PIPE, text=True)
         self.addCleanup(server.stdout.close)
-        place = None
-        while place is None:
-            place = re.search(r"listening at http://([^/]+)/", server.stdout.readline())
+        place, line = None, "before its first line"
+        while place is None and line:
+            line = server.stdout.readline()
+            place = re.search(r"listening at http://([^/]+)/", line)
+        self.assertIsNotNone(place, "the server ended")
         self.place = place.group(1)
         threading.Thread(target=server.stdout.read, daemon=True).start()
 
