@@ -41,6 +41,8 @@ export function advice_of(model) {
   const status = model.status;
   const stage = stage_of(model);
   const watching = !is_operator(model);
+  if (stage !== "wait" && model.link !== "open") return ["now.lost", "now.lost_text"];
+  if (status?.controller === "absent") return ["now.absent", "now.absent_text"];
   switch (stage) {
     case "wait": return ["now.wait", "now.wait_text"];
     case "fault": return ["now.fault", status.asks === "clearing" ? "now.fault_text" : "now.fault_wait"];
