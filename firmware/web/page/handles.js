@@ -24,7 +24,7 @@ function with_corner(polygon, i, place) {
 function make_handle(i) {
   const node = make("div", { class: "handle", "data-corner": String(i) });
   const marker = L.marker([0, 0], {
-    pane: "handles", keyboard: false, icon: L.divIcon({ className: "handle-place", html: node, iconSize: [48, 48] }) });
+    pane: "handles", keyboard: false, interactive: false, icon: L.divIcon({ className: "handle-place", html: node, iconSize: [48, 48] }) });
   marker.addTo(map);
   let before = null;
   on_drag(node, {
