@@ -47,6 +47,7 @@ export const words = {
   "state.ended": "The search has ended",
 
   "link.now": "Live, {age}",
+  "link.ended": "Nothing changes any more",
   "link.old": "Last heard {age}",
   "operator.you": "You hold the controls",
   "operator.other": "{name} holds the controls",
@@ -107,6 +108,7 @@ export const words = {
   "now.accepted_text": "Go to your start. Then hold the green button until its ring is full.",
   "now.paused": "The search is paused",
   "now.go_on_text": "Hold the green button to go on, or ask for another plan.",
+  "now.again_text": "Accept the plan again to go on, or ask for another.",
   "now.watch_agree": "You are watching. Whoever holds the controls decides about this plan.",
   "now.free_agree": "Take the controls to decide about this plan.",
   "now.watch_start": "You are watching. Whoever holds the controls starts the robot.",
@@ -118,7 +120,7 @@ export const words = {
   "progress.label": "Planning",
   "progress.preparing": "Reading the map",
   "progress.step": "Step {done} of {all}",
-  "pause.asked": "Somebody pressed Stop: the robot stands. Hold Start to go on.",
+  "pause.asked": "Somebody pressed Stop: the robot stands.",
   "pause.beat_lost": "The link to the operator was lost: the robot stopped. Hold Start to go on.",
   "pause.replan": "The robot stands while you agree on a new plan.",
 
@@ -289,7 +291,12 @@ export const words = {
 
   "notice.close": "I have read it",
   "notice.an_area": "the area",
-  "notice.area_without_mass": "It is surely not in this area: {area}. Draw it where violet is on the map.",
+  "notice.area_without_mass": "Nothing in this area may hold the object: {area}. Draw it where the map is violet.",
+  "notice.start_outside_map": "{name} is off the map. Show where {name} really is.",
+  "notice.start_blocked": "{name} stands too near to an obstacle to set off.",
+  "notice.start_restricted": "{name} stands in a no-go area. Move the area, or {name}.",
+  "notice.nothing_left": "All that may hold the object has been searched.",
+  "notice.nothing_in_reach": "{name} cannot see any place that may hold the object. Look at the no-go areas.",
 
   "pairing.title": "Pair this screen",
   "pairing.text": "The robot shows six digits. Enter them here.",

@@ -47,6 +47,7 @@ export const words = {
   "state.ended": "La búsqueda ha terminado",
 
   "link.now": "En vivo, {age}",
+  "link.ended": "Ya no cambia nada",
   "link.old": "Último dato {age}",
   "operator.you": "Tienes el mando",
   "operator.other": "{name} tiene el mando",
@@ -107,6 +108,7 @@ export const words = {
   "now.accepted_text": "Ve a tu salida. Luego mantén pulsado el botón verde hasta que se llene su anillo.",
   "now.paused": "La búsqueda está en pausa",
   "now.go_on_text": "Mantén pulsado el botón verde para seguir, o pide otro plan.",
+  "now.again_text": "Acepta otra vez el plan para seguir, o pide otro.",
   "now.watch_agree": "Estás mirando. Quien tiene el mando decide sobre este plan.",
   "now.free_agree": "Toma el mando para decidir sobre este plan.",
   "now.watch_start": "Estás mirando. Quien tiene el mando pone en marcha el robot.",
@@ -118,7 +120,7 @@ export const words = {
   "progress.label": "Planificando",
   "progress.preparing": "Leyendo el mapa",
   "progress.step": "Paso {done} de {all}",
-  "pause.asked": "Alguien pulsó Parar: el robot está parado. Mantén pulsado Salir para seguir.",
+  "pause.asked": "Alguien pulsó Parar: el robot está parado.",
   "pause.beat_lost": "Se perdió el enlace con quien tiene el mando: el robot se paró. Mantén pulsado Salir para seguir.",
   "pause.replan": "El robot está parado mientras acordáis otro plan.",
 
@@ -289,7 +291,12 @@ export const words = {
 
   "notice.close": "Leído",
   "notice.an_area": "la zona",
-  "notice.area_without_mass": "Seguro que no está en esta zona: {area}. Dibújala donde el mapa es violeta.",
+  "notice.area_without_mass": "Nada en esta zona puede tener el objeto: {area}. Dibújala donde el mapa es violeta.",
+  "notice.start_outside_map": "{name} está fuera del mapa. Indica dónde está de verdad.",
+  "notice.start_blocked": "{name} está demasiado cerca de un obstáculo para salir.",
+  "notice.start_restricted": "{name} está en una zona prohibida. Mueve la zona, o a {name}.",
+  "notice.nothing_left": "Ya se ha buscado en todo lo que puede tener el objeto.",
+  "notice.nothing_in_reach": "{name} no puede ver ningún sitio que pueda tener el objeto. Mira las zonas prohibidas.",
 
   "pairing.title": "Enlazar esta pantalla",
   "pairing.text": "El robot muestra seis cifras. Escríbelas aquí.",
