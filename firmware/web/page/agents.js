@@ -35,7 +35,7 @@ function make_marker(agent, index) {
   pointer.style.color = style.line;
   node.append(pointer, disc);
   const marker = L.marker(at(agent.start_m), {
-    pane: "agents", keyboard: false, icon: L.divIcon({ className: "agent-place", html: node, iconSize: [48, 48] }) });
+    pane: "agents", keyboard: false, interactive: false, icon: L.divIcon({ className: "agent-place", html: node, iconSize: [48, 48] }) });
   const sight = L.circle(at(agent.start_m), {
     renderer: renderers.paths, pane: "paths", interactive: false, radius: agent.sight_radius_m, color: style.line, weight: 1.5,
     opacity: 0.7, fillColor: style.line, fillOpacity: 0.07 });

@@ -1,5 +1,5 @@
 // Handles on the corners of the area that is selected. A rectangle stays one; of a polygon each corner goes its own way.
-import { is_rectangle, is_simple, snapped } from "./geometry.js";
+import { box_of, is_rectangle, is_simple, snapped } from "./geometry.js";
 import { make } from "./dom.js";
 import { at, map } from "./map.js";
 import { model } from "./model.js";
@@ -24,7 +24,7 @@ function with_corner(polygon, i, place) {
 function make_handle(i) {
   const node = make("div", { class: "handle", "data-corner": String(i) });
   const marker = L.marker([0, 0], {
-    pane: "handles", keyboard: false, icon: L.divIcon({ className: "handle-place", html: node, iconSize: [48, 48] }) });
+    pane: "handles", keyboard: false, interactive: false, icon: L.divIcon({ className: "handle-place", html: node, iconSize: [48, 48] }) });
   marker.addTo(map);
   let before = null;
   on_drag(node, {
@@ -49,6 +49,18 @@ function make_handle(i) {
   return marker;
 }
 
+const kOut_px = 15;
+
+// The place for the finger lies more outside than inside: of a small area something is left to take the whole by.
+function lean_out(node, corner, centre) {
+  if (!node) return;
+  const x = corner[0] - centre[0];
+  const y = corner[1] - centre[1];
+  const far = Math.hypot(x, y) || 1;
+  node.style.setProperty("--out-x", `${(kOut_px * x) / far}px`);
+  node.style.setProperty("--out-y", `${(-kOut_px * y) / far}px`);
+}
+
 /// Null: none. `actions`: hold(slot, polygon), drop() and let_go().
 export function show_handles(area, actions) {
   then = actions;
@@ -59,5 +71,10 @@ export function show_handles(area, actions) {
   }
   shown = area;
   if (!area) return;
-  area.polygon_m.forEach((corner, i) => handles[i]?.setLatLng(at(corner)));
+  const box = box_of(area.polygon_m);
+  const centre = [box.x_m + box.width_m / 2, box.y_m + box.height_m / 2];
+  area.polygon_m.forEach((corner, i) => {
+    handles[i]?.setLatLng(at(corner));
+    lean_out(handles[i]?.options.icon.options.html, corner, centre);
+  });
 }

@@ -1,6 +1,6 @@
 // The line above all: what the robot does, in words; how old that is; who holds the controls.
 import { by_id, set_attribute, set_text, show } from "./dom.js";
-import { agents_of, data_age_s, has_controller, is_old, is_operator } from "./judge.js";
+import { agents_of, data_age_s, has_controller, has_ended, is_old, is_operator } from "./judge.js";
 import { state_words } from "./state_words.js";
 import { choose_language, language_names, number, other_language, say } from "./words.js";
 import { changed, model } from "./model.js";
@@ -35,7 +35,8 @@ export function show_head() {
   set_attribute(by_id("head"), "data-state", state.key.slice("state.".length));
   const age_s = data_age_s(model, now_ms);
   const old = is_old(model, now_ms);
-  set_text(by_id("link-age"), model.link === "open" && !old ? say("link.now", { age: age_words(age_s) }) : say("link.old", { age: age_words(age_s) }));
+  if (has_ended(model)) set_text(by_id("link-age"), say("link.ended"));
+  else set_text(by_id("link-age"), model.link === "open" && !old ? say("link.now", { age: age_words(age_s) }) : say("link.old", { age: age_words(age_s) }));
   set_text(by_id("link-operator"), model.status && model.link === "open" ? operator_words() : "");
   const stale = old && model.heard_at_ms !== null && model.link !== "unpaired";
   set_attribute(document.body, "data-old", stale ? "yes" : "no");

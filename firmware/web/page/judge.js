@@ -1,6 +1,9 @@
 // What follows from the model, without a page: who may do what, how old the data is, what stage the search is in.
 
+import { cut, distance_m } from "./geometry.js";
+
 export const kOldAfterS = 1;
+const kBeside_m = 1.0;
 
 export function heard_age_s(model, now_ms) {
   return model.heard_at_ms === null ? Infinity : Math.max(0, (now_ms - model.heard_at_ms) / 1000);
@@ -14,7 +17,13 @@ export function data_age_s(model, now_ms) {
   return heard_s + controller_s;
 }
 
+/// What has ended does not change any more: its data cannot be too old.
+export function has_ended(model) {
+  return model.link === "open" && model.status?.finished === true;
+}
+
 export function is_old(model, now_ms) {
+  if (has_ended(model)) return heard_age_s(model, now_ms) > kOldAfterS;
   return model.link !== "open" || !has_controller(model) || data_age_s(model, now_ms) > kOldAfterS;
 }
 
@@ -67,6 +76,10 @@ export function done_m(model, agent) {
   const path = plan?.agents?.[agent];
   if (!state || !path || !status.search.started || plan.number !== status.plan.number || !status.plan.ready) return null;
   if (state.path_ended) return path.length_m;
-  if (!(state.left_m > 0)) return null;
+  // Nobody knows it of a person; what they have gone tells, where it leads to where they are.
+  if (!(state.left_m > 0)) {
+    const there = cut(path.waypoints_m, state.moved_m)[0].at(-1);
+    return distance_m(there, [state.x_m, state.y_m]) < kBeside_m ? Math.min(state.moved_m, path.length_m) : null;
+  }
   return Math.min(Math.max(path.length_m - state.left_m, 0), path.length_m);
 }

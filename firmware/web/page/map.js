@@ -1,6 +1,8 @@
 // The map: a plane of metres, x to the right, y up.
 import { by_id } from "./dom.js";
 
+const kEdge_px = 12;
+
 export const map = L.map("map", {
   crs: L.CRS.Simple,
   attributionControl: false,
@@ -53,7 +55,11 @@ export function fit_map(size) {
   if (shown === wanted) return;
   shown = wanted;
   const bounds = L.latLngBounds([0, 0], [size.height_m, size.width_m]);
-  refit = () => map.fitBounds(bounds, { padding: [14, 14], animate: false });
+  refit = () => {
+    const buttons_px = by_id("map-buttons").offsetWidth;
+    map.fitBounds(bounds, {
+      paddingTopLeft: [kEdge_px, kEdge_px], paddingBottomRight: [buttons_px > 0 ? buttons_px + 2 * kEdge_px : kEdge_px, kEdge_px], animate: false });
+  };
   touched = false;
   refit();
   map.setMaxBounds(bounds.pad(0.35));  // after it, or it pans there from elsewhere

@@ -40,7 +40,7 @@ export function show_report() {
   }
   show(by_id("report-file"), Boolean(report));
   if (news) {
-    navigator.vibrate?.(kVibrateMs);
+    if (navigator.userActivation?.hasBeenActive !== false) navigator.vibrate?.(kVibrateMs);
     const finder = agents_of(model)[model.status.search.finder]?.name ?? "";
     set_text(by_id("loud"), say(`end.${end_key(model)}`, { finder, robot: agents_of(model)[0]?.name ?? "IVO" }));
   }

@@ -1,6 +1,6 @@
 // What the robot does, and what somebody may do now, in words: which sentence fits the model. The sentences themselves are in
 // words_en.js and words_es.js.
-import { agents_of, is_operator, stage_of } from "./judge.js";
+import { agents_of, has_ended, is_operator, stage_of } from "./judge.js";
 
 /// A key of the words, what stands in the sentence, and its tone: calm, busy, moving, warn, bad.
 export function state_words(model) {
@@ -10,6 +10,7 @@ export function state_words(model) {
   if (model.link === "unpaired") return words("unpaired", "warn");
   if (model.link !== "open") return words(model.heard_at_ms === null ? "connecting" : "no_server", "bad");
   if (status === null) return words("connecting", "warn");
+  if (has_ended(model)) return words(end_key(model), "calm");
   if (status.controller === "none") return words("none", "warn");
   if (status.controller === "absent") return words("absent", "bad");
   if (status.controller === "silent") return words("silent", "bad");
@@ -41,6 +42,8 @@ export function advice_of(model) {
   const status = model.status;
   const stage = stage_of(model);
   const watching = !is_operator(model);
+  if (stage !== "wait" && model.link !== "open") return ["now.lost", "now.lost_text"];
+  if (status?.controller === "absent" && stage !== "end") return ["now.absent", "now.absent_text"];
   switch (stage) {
     case "wait": return ["now.wait", "now.wait_text"];
     case "fault": return ["now.fault", status.asks === "clearing" ? "now.fault_text" : "now.fault_wait"];
@@ -51,6 +54,7 @@ export function advice_of(model) {
   }
   const resumed = status.search.started;
   if (status.plan.accepted) return [resumed ? "now.paused" : "now.accepted", watching ? "now.watch_start" : resumed ? "now.go_on_text" : "now.accepted_text"];
+  if (resumed && !watching && status.pause_cause !== "replan") return ["now.paused", "now.again_text"];
   const title = status.plan.with_preferences ? "now.agree_with" : "now.agree_free";
   if (watching) return [title, status.operator ? "now.watch_agree" : "now.free_agree"];
   return [title, "now.agree_text"];
