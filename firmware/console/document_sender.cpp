@@ -34,6 +34,7 @@ void DocumentSender::sent() {
   from_ += part_.count;
   if (from_ == part_.whole) {
     had_[place_of(*document_)] = copy_.revision;
+    next_ = place_of(*document_) + 1;
     document_.reset();
     copy_ = {};
   }
@@ -41,8 +42,9 @@ void DocumentSender::sent() {
 
 bool DocumentSender::find(const DocumentShelf& shelf) {
   for (std::size_t i = 0; i < had_.size(); ++i) {
-    const auto document = static_cast<Document>(i + 1);
-    if (shelf.revision(document) != had_[i]) {
+    const std::size_t place = (next_ + i) % had_.size();
+    const auto document = static_cast<Document>(place + 1);
+    if (shelf.revision(document) != had_[place]) {
       document_ = document;
       copy_ = shelf.at(document);
       from_ = 0;

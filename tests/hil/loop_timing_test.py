@@ -151,8 +151,8 @@ class LoopTiming(unittest.TestCase):
         self.assertGreater(self.first.times["think"]["total_ns"], 0.4 * planned * 1e9, "of each cycle")
 
     def test_there_was_traffic_on_the_console(self):
-        self.assertRegex(self.first.text("load.txt"), r"^2\d{3} pings, 2\d{4} of garbage sent; 0 not taken; ")
-        self.assertRegex(self.first.text("status.txt"), r"messages: 2\d{3} accepted, \d+ of a wrong size, ")
+        self.assertRegex(self.first.text("load.txt"), r"^2\d{3} messages, 2\d{4} of garbage sent; 0 not taken; ")
+        self.assertRegex(self.first.text("status.txt"), r"messages: [12]\d{3} accepted, \d+ of a wrong size, ")
 
     def test_two_runs_are_the_same_byte_for_byte(self):
         for name in KEPT:

@@ -2,26 +2,34 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+
 namespace ivo::firmware::console {
 namespace {
 
 class ConsoleDeskTest : public testing::Test {
  protected:
   Verdict submit(Kind kind, std::uint32_t question = 0) {
-    return desk_.submit({.header = {.kind = kind}, .question = question});
+    return desk_.submit(Command{.header = {.kind = kind}, .question = question});
+  }
+  std::optional<Kind> take(Asks asks) {
+    const std::optional<DeskAnswer> answer = desk_.take(asks);
+    return answer ? std::optional(answer->kind) : std::nullopt;
   }
   std::uint32_t question() const { return desk_.status().question; }
   void ask(Asks asks) { desk_.show({}, asks); }
 
   int stops_ = 0;
-  ConsoleDesk desk_{[this] { ++stops_; }};
+  ConsoleDesk desk_{{.agents = 2, .width_m = 20, .height_m = 10},
+                    {},
+                    {.stop = [this] { ++stops_; }, .pause = [] {}, .beat = [] {}}};
 };
 
 TEST_F(ConsoleDeskTest, TakesAPingAtAnyTimeAndChangesNothing) {
   EXPECT_EQ(submit(Kind::kPing), Verdict::kAccepted);
   ask(Asks::kConsent);
   EXPECT_EQ(submit(Kind::kPing, 99), Verdict::kAccepted);
-  EXPECT_EQ(desk_.take(Asks::kConsent), std::nullopt);
+  EXPECT_EQ(take(Asks::kConsent), std::nullopt);
   EXPECT_EQ(stops_, 0);
 }
 
@@ -48,8 +56,8 @@ TEST_F(ConsoleDeskTest, TakesOnlyTheAnswersThatFitTheQuestion) {
     ask(Asks::kNothing);
     ask(row.asks);
     EXPECT_EQ(submit(row.kind, question()), row.fits ? Verdict::kAccepted : Verdict::kNotAsked);
-    EXPECT_EQ(desk_.take(row.asks), row.fits ? std::optional(row.kind) : std::nullopt);
-    EXPECT_EQ(desk_.take(row.asks), std::nullopt) << "once";
+    EXPECT_EQ(take(row.asks), row.fits ? std::optional(row.kind) : std::nullopt);
+    EXPECT_EQ(take(row.asks), std::nullopt) << "once";
   }
 }
 
@@ -61,7 +69,7 @@ TEST_F(ConsoleDeskTest, RefusesConsentToWhatWasAskedBefore) {
   EXPECT_EQ(submit(Kind::kConsent, first), Verdict::kOtherQuestion);
   EXPECT_EQ(submit(Kind::kConsent, question() + 1), Verdict::kOtherQuestion);
   EXPECT_EQ(submit(Kind::kConsent, 0), Verdict::kOtherQuestion);
-  EXPECT_EQ(desk_.take(Asks::kConsent), std::nullopt);
+  EXPECT_EQ(take(Asks::kConsent), std::nullopt);
   EXPECT_EQ(submit(Kind::kConsent, question()), Verdict::kAccepted);
 }
 
@@ -69,18 +77,18 @@ TEST_F(ConsoleDeskTest, HearsTheFirstAnswerAlone) {
   ask(Asks::kConsent);
   EXPECT_EQ(submit(Kind::kNoConsent, question()), Verdict::kAccepted);
   EXPECT_EQ(submit(Kind::kConsent, question()), Verdict::kAnswered);
-  EXPECT_EQ(desk_.take(Asks::kConsent), Kind::kNoConsent);
+  EXPECT_EQ(take(Asks::kConsent), Kind::kNoConsent);
   EXPECT_EQ(submit(Kind::kConsent, question()), Verdict::kAnswered) << "taken, and the question still stands";
-  EXPECT_EQ(desk_.take(Asks::kConsent), std::nullopt);
+  EXPECT_EQ(take(Asks::kConsent), std::nullopt);
 }
 
 TEST_F(ConsoleDeskTest, ForgetsAnAnswerThatNobodyTookWhenSomethingElseIsAsked) {
   ask(Asks::kConsent);
   EXPECT_EQ(submit(Kind::kConsent, question()), Verdict::kAccepted);
-  EXPECT_EQ(desk_.take(Asks::kClearing), std::nullopt);
+  EXPECT_EQ(take(Asks::kClearing), std::nullopt);
   ask(Asks::kNothing);
   ask(Asks::kConsent);
-  EXPECT_EQ(desk_.take(Asks::kConsent), std::nullopt);
+  EXPECT_EQ(take(Asks::kConsent), std::nullopt);
 }
 
 TEST_F(ConsoleDeskTest, NumbersQuestionsAndNotStatuses) {

@@ -36,7 +36,9 @@ class ConsoleSocketTest : public testing::Test {
 
   ScratchFolder folder_;
   std::atomic<int> stops_{0};
-  ConsoleDesk desk_{[this] { ++stops_; }};
+  ConsoleDesk desk_{{.agents = 2, .width_m = 20, .height_m = 10},
+                    {},
+                    {.stop = [this] { ++stops_; }, .pause = [] {}, .beat = [] {}}};
   std::optional<ConsoleSocket> socket_;
 };
 
@@ -110,7 +112,7 @@ TEST_F(ConsoleSocketTest, AnswersAndTells) {
   EXPECT_EQ(somebody.command(Kind::kPing, 0).value(), Verdict::kAccepted);
   EXPECT_EQ(somebody.command(Kind::kClearFault, status.value().question).value(), Verdict::kNotAsked);
   EXPECT_EQ(somebody.command(Kind::kConsent, status.value().question).value(), Verdict::kAccepted);
-  EXPECT_EQ(desk_.take(Asks::kConsent), Kind::kConsent);
+  EXPECT_EQ(desk_.take(Asks::kConsent).value().kind, Kind::kConsent);
   EXPECT_EQ(somebody.command(Kind::kStop, 0).value(), Verdict::kAccepted);
   EXPECT_EQ(stops_, 1);
   EXPECT_EQ(count(Verdict::kAccepted), 3U);
@@ -126,7 +128,8 @@ TEST_F(ConsoleSocketTest, HearsWhoConnectedBeforeItServed) {
 }
 
 TEST_F(ConsoleSocketTest, AFailureEndsItAndNothingElse) {
-  ConsoleDesk failing([] { throw std::bad_alloc(); });
+  ConsoleDesk failing({.agents = 2, .width_m = 20, .height_m = 10}, {},
+                      {.stop = [] { throw std::bad_alloc(); }, .pause = [] {}, .beat = [] {}});
   socket_.emplace(std::move(Listener::at(path())).value(), failing);
   ConsoleClient somebody = client();
   EXPECT_FALSE(somebody.command(Kind::kStop, 0).ok()) << "nobody answers any more";
@@ -169,7 +172,8 @@ TEST_F(ConsoleSocketTest, RefusesPacketsOfEverySizeAndGoesOn) {
     answered += size == sizeof(Answer) ? 1 : 0;
   }
   EXPECT_EQ(client().command(Kind::kPing, 0).value(), Verdict::kAccepted);
-  EXPECT_EQ(count(Verdict::kWrongSize), said);
+  EXPECT_EQ(count(Verdict::kWrongSize), 4U) << "too short for a header, or longer than is read";
+  EXPECT_EQ(count(Verdict::kWrongMagic), said - 4);
 }
 
 TEST_F(ConsoleSocketTest, HearsTheStopOfOneThatWentWithoutReading) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstddef>
 #include <string>
 
@@ -21,7 +22,7 @@ TEST(ConsoleStatus, SaysWhatTheLoopShows) {
   loop.planning.generations = 9;
   loop.planning.has_plan = true;
   loop.planning.best.expected_time_s = 77.0;
-  loop.tracks[1] = {{1.0, 2.0}, 3.0, Duration(), true};
+  loop.tracks[1] = {.position = {1.0, 2.0}, .moved_m = 3.0, .before_m = 1.0, .path_ended = true};
   loop.counters.cycles = 10;
   loop.counters.bus.receive_dropped = 11;
   const Status status = status_of(loop, 2);
@@ -47,6 +48,33 @@ TEST(ConsoleStatus, SaysWhatTheLoopShows) {
   EXPECT_EQ(status.cycles, 10U);
   EXPECT_EQ(status.receive_dropped, 11U);
   EXPECT_EQ(status.fault[0], '\0');
+}
+
+TEST(ConsoleStatus, SaysWhatTheDialogueStandsAt) {
+  LoopStatus loop;
+  loop.plan_number = 4;
+  loop.preparing = true;
+  loop.pause_cause = PauseCause::kBeatLost;
+  loop.distance_left_m = 7.5;
+  Status status = status_of(loop, 2);
+  EXPECT_EQ(status.plan_number, 4U);
+  EXPECT_EQ(status.preparing, 1);
+  EXPECT_EQ(status.pause_cause, static_cast<std::uint8_t>(PauseCause::kBeatLost));
+  EXPECT_EQ(status.watched, 0);
+  EXPECT_LT(status.beat_age_s, 0) << "there was none";
+  EXPECT_EQ(status.agent[0].left_m, 7.5);
+  EXPECT_EQ(status.agent[1].left_m, 0.0) << "nobody knows";
+  EXPECT_EQ(status.agent[1].reported, 0U);
+  EXPECT_LT(status.agent[1].report_age_s, 0);
+  loop.watched = true;
+  loop.beat_age = std::chrono::milliseconds(250);
+  loop.report_age[1] = std::chrono::seconds(2);
+  status = status_of(loop, 2);
+  EXPECT_EQ(status.watched, 1);
+  EXPECT_EQ(status.beat_age_s, 0.25);
+  EXPECT_EQ(status.agent[1].reported, 1U);
+  EXPECT_EQ(status.agent[1].report_age_s, 2.0);
+  EXPECT_EQ(status.agent[0].reported, 0U);
 }
 
 TEST(ConsoleStatus, SaysAFaultInWordsThatEnd) {
@@ -80,15 +108,21 @@ TEST(ConsoleStatus, LiesWhereOtherProgramsReadIt) {
   EXPECT_EQ(offsetof(Status, asks), 28U);
   EXPECT_EQ(offsetof(Status, mode), 29U);
   EXPECT_EQ(offsetof(Status, fault_code), 44U);
-  EXPECT_EQ(offsetof(Status, generation), 48U);
-  EXPECT_EQ(offsetof(Status, expected_time_s), 56U);
-  EXPECT_EQ(offsetof(Status, search_time_ns), 80U);
-  EXPECT_EQ(offsetof(Status, agent), 96U);
-  EXPECT_EQ(offsetof(Status, fault), 352U);
-  EXPECT_EQ(offsetof(Status, cycles), 512U);
-  EXPECT_EQ(offsetof(Status, messages), 584U);
-  EXPECT_EQ(offsetof(Status, answers_dropped), 688U);
-  EXPECT_EQ(offsetof(Status, clients), 704U);
+  EXPECT_EQ(offsetof(Status, plan_number), 48U);
+  EXPECT_EQ(offsetof(Status, areas_revision), 52U);
+  EXPECT_EQ(offsetof(Status, accepted), 56U);
+  EXPECT_EQ(offsetof(Status, watched), 60U);
+  EXPECT_EQ(offsetof(Status, beat_age_s), 72U);
+  EXPECT_EQ(offsetof(Status, generation), 80U);
+  EXPECT_EQ(offsetof(Status, expected_time_s), 88U);
+  EXPECT_EQ(offsetof(Status, search_time_ns), 112U);
+  EXPECT_EQ(offsetof(Status, searched_mass), 120U);
+  EXPECT_EQ(offsetof(Status, agent), 136U);
+  EXPECT_EQ(offsetof(Status, fault), 520U);
+  EXPECT_EQ(offsetof(Status, cycles), 680U);
+  EXPECT_EQ(offsetof(Status, messages), 752U);
+  EXPECT_EQ(offsetof(Status, answers_dropped), 888U);
+  EXPECT_EQ(offsetof(Status, clients), 904U);
 }
 
 }  // namespace

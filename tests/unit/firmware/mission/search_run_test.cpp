@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <optional>
 
 #include "tests/support/drawn_map.hpp"
 
@@ -137,6 +138,145 @@ TEST_F(SearchRunTest, AnUnknownObjectIsNeverFound) {
   run.start(now_, *plan_, SearchObject());
   run.update(now_ + 1s, {2, 2}, false);
   EXPECT_FALSE(run.finder().has_value());
+}
+
+TEST_F(SearchRunTest, ANewPlanIsFollowedByEverybodyFromWhereTheyAre) {
+  SearchRun run(*cells_, searchers_);
+  run.start(now_, *plan_, {});
+  run.update(now_ + 1s, {2, 3}, false);
+  ASSERT_EQ(run.track(1).position, (Point{8, 3}));
+  auto other = std::make_unique<planner::Plan>();
+  (void)other->paths.push_back(path({{2, 3}, {4, 3}}));
+  (void)other->paths.push_back(path({{7, 3}, {7, 4}}));
+  run.follow(*other);
+  run.update(now_ + 1500ms, {2.5, 3}, false);
+  EXPECT_EQ(run.track(1).position, (Point{7.5, 3})) << "on the way to where the path begins";
+  EXPECT_DOUBLE_EQ(run.track(1).moved_m, 1.5);
+  EXPECT_DOUBLE_EQ(run.track(1).before_m, 1.0);
+  EXPECT_DOUBLE_EQ(run.track(0).moved_m, 1.5);
+  EXPECT_DOUBLE_EQ(run.track(0).before_m, 1.0);
+  run.update(now_ + 3s, {4, 3}, true);
+  EXPECT_EQ(run.state(), SearchState::kPathsEnded);
+  EXPECT_EQ(run.track(1).position, (Point{7, 4}));
+  EXPECT_DOUBLE_EQ(run.track(1).moved_m, 3.0);
+}
+
+TEST_F(SearchRunTest, APathThatHadEndedGoesOnWithANewPlan) {
+  SearchRun run(*cells_, searchers_);
+  run.start(now_, *plan_, {});
+  run.update(now_ + 3s, {2, 3}, false);
+  ASSERT_TRUE(run.track(1).path_ended);
+  auto other = std::make_unique<planner::Plan>();
+  (void)other->paths.push_back(path({{2, 3}, {4, 3}}));
+  (void)other->paths.push_back(path({{9, 3}, {9, 9}}));
+  run.follow(*other);
+  EXPECT_FALSE(run.track(1).path_ended);
+  run.update(now_ + 4s, {4, 3}, true);
+  EXPECT_EQ(run.state(), SearchState::kRunning);
+  EXPECT_EQ(run.track(1).position, (Point{9, 4}));
+}
+
+TEST_F(SearchRunTest, IsTakenUpWithinAPlanThatWasMadeUnderWay) {
+  SearchRun first(*cells_, searchers_);
+  first.start(now_, *plan_, {});
+  first.update(now_ + 2s, {2, 3}, false);
+  ASSERT_EQ(first.track(1).position, (Point{9, 3}));
+  auto other = std::make_unique<planner::Plan>();
+  (void)other->paths.push_back(path({{2, 3}, {4, 3}}));
+  (void)other->paths.push_back(path({{9, 3}, {9, 9}}));
+  first.follow(*other);
+  first.update(now_ + 3s, {2.5, 3}, false);
+  const SearchProgress left{
+      .tracks = {first.track(0), first.track(1)}, .elapsed = first.elapsed(), .state = {}, .finder = {}};
+  SearchRun second(*cells_, searchers_);
+  second.resume(*other, {}, left);
+  second.go_on(now_ + 900s);
+  second.update(now_ + 901s, {3, 3}, false);
+  EXPECT_DOUBLE_EQ(second.track(1).position.y_m, 5);
+  EXPECT_DOUBLE_EQ(second.track(1).moved_m, 4.0);
+  EXPECT_DOUBLE_EQ(second.track(1).before_m, 2.0);
+}
+
+TEST_F(SearchRunTest, FoundBySomebodyIsFoundOnceAndOnlyWhileTheSearchGoesOn) {
+  SearchRun run(*cells_, searchers_);
+  run.found_by(1);
+  EXPECT_EQ(run.state(), SearchState::kRunning) << "nobody has set off";
+  run.start(now_, *plan_, {});
+  run.found_by(-1);
+  run.found_by(2);
+  EXPECT_EQ(run.state(), SearchState::kRunning) << "by nobody";
+  run.found_by(1);
+  EXPECT_EQ(run.state(), SearchState::kFound);
+  EXPECT_EQ(run.finder(), 1);
+  run.found_by(0);
+  EXPECT_EQ(run.finder(), 1) << "the first who says so";
+  run.update(now_ + 9s, {2, 4}, true);
+  EXPECT_EQ(run.state(), SearchState::kFound);
+}
+
+class ReportedSearchRun : public SearchRunTest {
+ protected:
+  ReportedSearchRun() {
+    searchers_[1].motion = PersonMotion::kReported;
+    plan_->paths[1].length_m = 2.0;
+  }
+};
+
+TEST_F(ReportedSearchRun, MovesFromReportToReportAndNotToTheFirst) {
+  SearchRun run(*cells_, searchers_);
+  run.start(now_, *plan_, {});
+  EXPECT_EQ(run.report_age(1, now_), std::nullopt);
+  run.report(1, {9, 9}, now_);
+  EXPECT_EQ(run.track(1).position, (Point{9, 9}));
+  EXPECT_EQ(run.track(1).moved_m, 0.0) << "that is where they are, not where they went";
+  run.report(1, {6, 5}, now_ + 3s);
+  EXPECT_DOUBLE_EQ(run.track(1).moved_m, 5.0);
+  EXPECT_EQ(run.report_age(1, now_ + 5s), 2s);
+  run.update(now_ + 6s, {2, 3}, false);
+  EXPECT_EQ(run.track(1).position, (Point{6, 5}));
+  EXPECT_DOUBLE_EQ(run.track(1).moved_m, 5.0);
+}
+
+TEST_F(ReportedSearchRun, BeforeTheStartCountsAsTheStart) {
+  SearchRun run(*cells_, searchers_);
+  run.report(1, {9, 9}, now_);
+  run.report(1, {9, 8}, now_ + 1s);
+  run.start(now_ + 2s, *plan_, {});
+  EXPECT_EQ(run.track(1).position, (Point{9, 8}));
+  EXPECT_EQ(run.track(1).moved_m, 0.0);
+  run.report(1, {9, 7}, now_ + 3s);
+  EXPECT_DOUBLE_EQ(run.track(1).moved_m, 1.0);
+}
+
+TEST_F(ReportedSearchRun, OfOthersNothingIsHeeded) {
+  SearchRun run(*cells_, searchers_);
+  run.start(now_, *plan_, {});
+  run.report(0, {9, 9}, now_);
+  run.report(2, {9, 9}, now_);
+  run.report(-1, {9, 9}, now_);
+  EXPECT_EQ(run.track(0).position, (Point{2, 2}));
+  EXPECT_EQ(run.report_age(0, now_), std::nullopt);
+}
+
+TEST_F(ReportedSearchRun, APathEndsWhereItEndsOnceHalfOfItIsWalked) {
+  SearchRun run(*cells_, searchers_);
+  run.start(now_, *plan_, {});
+  run.report(1, {9, 2.5}, now_);
+  run.update(now_ + 1s, {2, 4}, true);
+  EXPECT_FALSE(run.track(1).path_ended) << "near the end, but has not gone there";
+  EXPECT_EQ(run.state(), SearchState::kRunning);
+  run.report(1, {8, 2.5}, now_ + 2s);
+  run.report(1, {8.9, 2.9}, now_ + 3s);
+  run.update(now_ + 3s, {2, 4}, true);
+  EXPECT_EQ(run.state(), SearchState::kPathsEnded);
+}
+
+TEST_F(ReportedSearchRun, SeesTheObjectFromWhereTheyAreReportedAndNotFromWhereNobodyKnows) {
+  SearchRun run(*cells_, searchers_);
+  run.start(now_, *plan_, SearchObject({8.0, 6.0}, FindRule::kSight));
+  run.report(1, {8, 5}, now_);
+  run.update(now_ + 100ms, {2, 2}, false);
+  EXPECT_EQ(run.finder(), 1);
 }
 
 TEST(SimulatedPerson, PassesSeveralWaypointsInOneStepAndStandsAtTheEnd) {

@@ -63,7 +63,7 @@ TEST(CommandGate, PassesAnAllowedCommandUnchanged) {
 TEST(CommandGate, PassesInNoModeAndConditionButTheRightOnes) {
   const std::array<Mode, kModes> modes{Mode::kPlanning,  Mode::kStarting, Mode::kAwaitingConsent,
                                        Mode::kSearching, Mode::kStopping, Mode::kDone,
-                                       Mode::kFault};
+                                       Mode::kFault,     Mode::kPausing};
   const std::vector<std::pair<Duration, bool>> ages{
       {0ms, true}, {kAgeLimit, true}, {kAgeLimit + 1ns, false}, {Duration::max(), false}, {-1ns, false}};
   const std::vector<std::pair<Pose, bool>> poses{
@@ -81,8 +81,8 @@ TEST(CommandGate, PassesInNoModeAndConditionButTheRightOnes) {
           for (const auto& [command, command_good] : commands) {
             const bool may_move = permissions(mode).may_move;
             const Refusal refusal = refusal_of({may_move, enabled, age, pose, command});
-            const bool should =
-                (mode == Mode::kSearching || mode == Mode::kStopping) && enabled && fresh && pose_good && command_good;
+            const bool in_motion = mode == Mode::kSearching || ramps_down(mode);
+            const bool should = in_motion && enabled && fresh && pose_good && command_good;
             ASSERT_EQ(refusal == Refusal::kNone, should) << name_of(mode) << ": " << name_of(refusal);
             passed += should ? 1 : 0;
           }
@@ -90,7 +90,7 @@ TEST(CommandGate, PassesInNoModeAndConditionButTheRightOnes) {
       }
     }
   }
-  EXPECT_EQ(passed, 2 * 2 * 1 * 3) << "two modes, two ages, one pose, three commands";
+  EXPECT_EQ(passed, 3 * 2 * 1 * 3) << "three modes, two ages, one pose, three commands";
 }
 
 TEST(CommandGate, RefusesMotionWhileFeedbackIsStale) {

@@ -15,7 +15,7 @@ using namespace condition;
 
 constexpr std::array<Mode, kModes> kEveryMode{Mode::kPlanning,  Mode::kStarting, Mode::kAwaitingConsent,
                                               Mode::kSearching, Mode::kStopping, Mode::kDone,
-                                              Mode::kFault};
+                                              Mode::kFault,     Mode::kPausing};
 
 /// Calls visit(mode, conditions, next) for the whole table.
 template <class Visit>
@@ -88,6 +88,69 @@ TEST(ModeTable, NeverGoesBackToSearching) {
   });
 }
 
+TEST(ModeTable, NeverSearchesOnOnceAPauseIsAsked) {
+  walk([](Mode mode, Conditions set, Mode next) {
+    if (mode == Mode::kSearching && has(set, kPauseAsked)) {
+      ASSERT_TRUE(next == Mode::kPausing || next == Mode::kStopping || next == Mode::kFault);
+    }
+  });
+}
+
+TEST(ModeTable, PausesOnlyASearchAndOnlyWhenAskedTo) {
+  walk([](Mode mode, Conditions set, Mode next) {
+    if (next == Mode::kPausing && mode != next) {
+      ASSERT_EQ(mode, Mode::kSearching);
+      ASSERT_TRUE(has(set, kPauseAsked));
+    }
+    if (mode != Mode::kSearching) {
+      ASSERT_EQ(next, next_mode(mode, set & ~kPauseAsked)) << "elsewhere nothing moves that could pause";
+    }
+  });
+}
+
+TEST(ModeTable, LeadsFromPausingToStandstillAndNotBackToTheSearch) {
+  walk([](Mode mode, Conditions set, Mode next) {
+    if (mode == Mode::kPausing) {
+      ASSERT_TRUE(ramps_down(next) || !moves(next));
+      ASSERT_TRUE(next != Mode::kStarting || has(set, kStandstill));
+      ASSERT_FALSE(next == Mode::kAwaitingConsent || next == Mode::kPlanning || next == Mode::kDone);
+      ASSERT_EQ(next, next_mode(mode, set & ~kConsent)) << "consent counts for nothing before the robot stands";
+      ASSERT_EQ(next, next_mode(mode, set | kPauseAsked)) << "to ask twice changes nothing";
+    }
+  });
+}
+
+TEST(ModeTable, LeadsFromPausingToMotionByConsentAlone) {
+  std::set<Mode> reached{Mode::kPausing};
+  for (std::size_t before = 0; before != reached.size();) {
+    before = reached.size();
+    walk([&](Mode mode, Conditions set, Mode next) {
+      if (reached.contains(mode) && !has(set, kConsent)) {
+        reached.insert(next);
+      }
+    });
+  }
+  EXPECT_FALSE(reached.contains(Mode::kSearching));
+  EXPECT_TRUE(reached.contains(Mode::kAwaitingConsent)) << "where it can be given";
+}
+
+TEST(ModeTable, APauseEndsWithTheRunOnceAStopIsAskedOrTheSearchHasEnded) {
+  walk([](Mode mode, Conditions set, Mode next) {
+    if (mode == Mode::kPausing && (has(set, kStopAsked) || has(set, kSearchEnded))) {
+      ASSERT_TRUE(next == Mode::kStopping || next == Mode::kFault);
+    }
+  });
+}
+
+TEST(ModeTable, ASearchThatEndsWhereNothingMovesIsDone) {
+  walk([](Mode mode, Conditions set, Mode next) {
+    if ((mode == Mode::kPlanning || mode == Mode::kStarting || mode == Mode::kAwaitingConsent) &&
+        has(set, kSearchEnded) && !has(set, kDrivesFault)) {
+      ASSERT_EQ(next, Mode::kDone);
+    }
+  });
+}
+
 TEST(ModeTable, ReachesFaultOnlyByAFaultLostPowerOrALateStop) {
   walk([](Mode mode, Conditions set, Mode next) {
     if (next == Mode::kFault && mode != Mode::kFault) {
@@ -121,7 +184,7 @@ TEST(ModeTable, PermitsMotionOnlyWithDrivesOn) {
   for (const Mode mode : kEveryMode) {
     const Permissions p = permissions(mode);
     EXPECT_EQ(p.may_move, p.enable_drives) << name_of(mode);
-    EXPECT_EQ(p.may_move, mode == Mode::kSearching || mode == Mode::kStopping) << name_of(mode);
+    EXPECT_EQ(p.may_move, mode == Mode::kSearching || ramps_down(mode)) << name_of(mode);
     EXPECT_EQ(p.think, mode == Mode::kPlanning) << name_of(mode);
   }
 }
@@ -287,6 +350,63 @@ TEST_F(ModeMachineTest, TakesAStopThatTakesTooLongForAFault) {
   EXPECT_EQ(step(), Mode::kStopping);
   now_ += rates::kStandstillTimeout - rates::kCycle;
   EXPECT_EQ(step(), Mode::kStopping) << "exactly at the limit";
+  EXPECT_EQ(step(), Mode::kFault);
+}
+
+TEST_F(ModeMachineTest, PausesToStandstillAndGoesOnAfterConsentAnew) {
+  search();
+  in_.pause_asked = true;
+  EXPECT_EQ(step(), Mode::kPausing);
+  in_.pause_asked = false;
+  EXPECT_EQ(step(), Mode::kPausing) << "nobody takes it back";
+  in_.drives_standstill = true;
+  EXPECT_EQ(step(), Mode::kStarting);
+  in_.drives_enabled = false;
+  EXPECT_EQ(step(), Mode::kAwaitingConsent);
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_EQ(step(), Mode::kAwaitingConsent) << "the consent of before is still held";
+  }
+  in_.consent_given = false;
+  step();
+  in_.consent_given = true;
+  EXPECT_EQ(step(), Mode::kSearching);
+}
+
+TEST_F(ModeMachineTest, WithoutAPlanItPlansAfterThePause) {
+  search();
+  in_.pause_asked = true;
+  in_.plan_ready = false;
+  EXPECT_EQ(step(), Mode::kPausing);
+  in_.drives_standstill = true;
+  EXPECT_EQ(step(), Mode::kStarting);
+  EXPECT_EQ(step(), Mode::kPlanning);
+}
+
+TEST_F(ModeMachineTest, TakesAPauseThatTakesTooLongForAFault) {
+  search();
+  in_.pause_asked = true;
+  EXPECT_EQ(step(), Mode::kPausing);
+  now_ += rates::kStandstillTimeout - rates::kCycle;
+  EXPECT_EQ(step(), Mode::kPausing) << "exactly at the limit";
+  EXPECT_EQ(step(), Mode::kFault);
+}
+
+TEST_F(ModeMachineTest, AStopInAPauseIsGivenItsFullTime) {
+  search();
+  in_.pause_asked = true;
+  EXPECT_EQ(step(), Mode::kPausing);
+  now_ += rates::kStandstillTimeout - 2 * rates::kCycle;
+  in_.stop_asked = true;
+  EXPECT_EQ(step(), Mode::kStopping);
+  EXPECT_EQ(step(), Mode::kStopping);
+  EXPECT_EQ(step(), Mode::kStopping);
+}
+
+TEST_F(ModeMachineTest, TakesPowerThatIsLostInAPauseForAFault) {
+  search();
+  in_.pause_asked = true;
+  EXPECT_EQ(step(), Mode::kPausing);
+  in_.drives_enabled = false;
   EXPECT_EQ(step(), Mode::kFault);
 }
 

@@ -29,8 +29,8 @@ std::unique_ptr<KeptSearch> example() {
   search.plan.score = {1.5, 2.5, 3.5, 4.5, 0.01, 6.5, true};
   search.generations = 300;
   search.started = true;
-  search.progress.tracks[0] = {{1, 2}, 3.0, 4500ms, true};
-  search.progress.tracks[1] = {{5, 6}, 7.0, 8500ms, false};
+  search.progress.tracks[0] = {{1, 2}, 3.0, 0.0, 4500ms, true};
+  search.progress.tracks[1] = {{5, 6}, 7.0, 2.5, 8500ms, false};
   search.progress.elapsed = 9500ms;
   search.progress.state = SearchState::kFound;
   search.progress.finder = 1;
@@ -55,6 +55,8 @@ TEST(KeptSearch, ReadsBackAsItWasWritten) {
   EXPECT_EQ(read->search.plan.score.horizon_s, 6.5);
   EXPECT_EQ(read->search.generations, 300);
   EXPECT_EQ(read->search.progress.tracks[1].under_way, 8500ms);
+  EXPECT_EQ(read->search.progress.tracks[1].moved_m, 7.0);
+  EXPECT_EQ(read->search.progress.tracks[1].before_m, 2.5) << "of it, before the plan that is followed now";
   EXPECT_TRUE(read->search.progress.tracks[0].path_ended);
   EXPECT_EQ(read->search.progress.finder, 1);
   EXPECT_EQ(read->search.robot.heading_rad, 0.5);
