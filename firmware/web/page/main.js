@@ -20,6 +20,7 @@ import { show_head } from "./head.js";
 import { show_layers } from "./layers.js";
 import { show_notice } from "./notices.js";
 import { show_pairing } from "./pairing.js";
+import { show_object } from "./found_object.js";
 import { show_paths } from "./paths.js";
 import { show_report } from "./report.js";
 import { show_search } from "./search.js";
@@ -30,7 +31,7 @@ import { show_who } from "./screens.js";
 
 // What a view cannot show must not take the others with it, Stop least of all.
 const kViews = [show_stop, show_pairing, show_head, show_tabs, show_agree, show_act, show_search, show_report, show_notice, show_who, show_layers];
-const kMapViews = [show_grids, show_paths, show_agents, show_sensors, show_areas, show_area_list, show_area_form, show_area_files, show_draw];
+const kMapViews = [show_grids, show_paths, show_object, show_agents, show_sensors, show_areas, show_area_list, show_area_form, show_area_files, show_draw];
 
 function show_all(views) {
   for (const show of views) {
