@@ -47,6 +47,11 @@ int run(std::span<const char* const> arguments) {
 }  // namespace
 
 int main(int count, char** arguments) {
+#if defined(__x86_64__) && defined(__AVX2__)
+  if (__builtin_cpu_supports("avx2") == 0) {
+    return refuse({"this processor has no AVX2; expected one, or a build with -DIVO_CPU=x86-64"});
+  }
+#endif
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
   std::signal(SIGPIPE, SIG_IGN);

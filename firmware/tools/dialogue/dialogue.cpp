@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "firmware/tools/dialogue/kept_areas.hpp"
+#include "firmware/tools/dialogue/path_place.hpp"
 #include "firmware/tools/dialogue/plan_notice.hpp"
 #include "firmware/tools/dialogue/shown_documents.hpp"
 
@@ -65,6 +66,7 @@ void Dialogue::observe(const LoopStatus& status) {
   take_requests();
   go_on(status);
   look(status);
+  follow_persons(status);
   lay_down(status);
 }
 
@@ -151,6 +153,22 @@ void Dialogue::refuse(const planner::Refusal& refusal) {
   step_ = Step::kIdle;
 }
 
+// The robot's is the loop's to say.
+void Dialogue::follow_persons(const LoopStatus& status) {
+  const ShownPlan& shown = loop_.shown_plan();
+  for (std::size_t m = 1; shown.ready && m < shown.plan.paths.size(); ++m) {
+    const planner::AgentPath& path = shown.plan.paths[m];
+    if (status.search_started) {
+      const AgentTrack& track = status.tracks[m];
+      // Of a search that is taken up nobody has followed the way so far.
+      const double walked_m = std::clamp(track.moved_m - track.before_m - 1.0, 0.0, path.length_m);
+      const double before_m = along_m_[m] > 0.0 ? along_m_[m] : walked_m;
+      along_m_[m] = along_path(path.waypoints.span(), track.position, before_m);
+    }
+    left_m_[m] = std::max(0.0, path.length_m - along_m_[m]);
+  }
+}
+
 void Dialogue::look(const LoopStatus& status) {
   if (!status.search_started || status.search != SearchState::kRunning) {
     return;
@@ -207,6 +225,9 @@ void Dialogue::complete(console::Status& status) const {
   status.preparing = preparing() ? 1 : status.preparing;
   status.with_preferences = preferred_ ? 1 : 0;
   status.searched_mass = std::min(1.0, searched_.mass());
+  for (std::size_t m = 1; m < along_m_.size(); ++m) {
+    status.agent[m].left_m = left_m_[m];
+  }
 }
 
 }  // namespace ivo::firmware

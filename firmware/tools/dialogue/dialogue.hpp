@@ -70,6 +70,7 @@ class Dialogue {
   void hand_over();
   void refuse(const planner::Refusal& refusal);
   void look(const LoopStatus& status);
+  void follow_persons(const LoopStatus& status);
   void lay_down(const LoopStatus& status);
   void lay_down_plan();
   [[nodiscard]] planner::Planner& spare() const noexcept { return *planners_[1 - current_]; }
@@ -97,7 +98,8 @@ class Dialogue {
   std::optional<Error> failure_;
   PlanMark plan_shown_;
   std::string plan_ready_;                         // the last that was planned to its end, as a document
-  std::array<double, limits::kAgents> along_m_{};  // of its path, each agent
+  std::array<double, limits::kAgents> along_m_{};  // of its path, each person
+  std::array<double, limits::kAgents> left_m_{};
 };
 
 }  // namespace ivo::firmware
