@@ -46,10 +46,12 @@ class RosClient:
     def __init__(self, url):
         packages = npm_packages.install(CLIENT)
         self.process = subprocess.Popen(["node", os.path.join(CLIENT, "client.js"), packages, url], stdin=subprocess.PIPE,
-                                        stdout=subprocess.PIPE, text=True)
+                                        stdout=subprocess.PIPE,
+                                        stderr=subprocess.DEVNULL, text=True)
         self.heard = []
         self.lines = queue.Queue()
-        threading.Thread(target=self.read, daemon=True).start()
+        self.reader = threading.Thread(target=self.read, daemon=True)
+        self.reader.start()
 
     def read(self):
         for line in self.process.stdout:
@@ -58,7 +60,9 @@ class RosClient:
 
     def close(self):
         self.process.stdin.close()
-        self.process.wait(PATIENCE_S)
+        self.reader.join(PATIENCE_S)
+        self.process.kill()
+        self.process.wait()
         self.process.stdout.close()
 
     def do(self, what, **fields):
@@ -77,6 +81,8 @@ class RosClient:
                     return said
                 self.heard.append(said)
             waiting = [self.lines.get(timeout=max(0.1, until - time.monotonic()))]
+            if waiting[0]["event"] == "end":
+                raise EOFError("the client ended")
 
     def message(self, topic, right=lambda msg: True):
         return self.wait("message", lambda said: said["topic"] == topic and right(said["msg"]))["msg"]
@@ -117,7 +123,10 @@ class Ros(unittest.TestCase):
             place = re.search(r"listening at http://([^/]+)/", line)
         self.assertIsNotNone(place, "the server ended")
         self.place = place.group(1)
-        threading.Thread(target=server.stdout.read, daemon=True).start()
+        reader = threading.Thread(target=server.stdout.read, daemon=True)
+        reader.start()
+        self.addCleanup(reader.join)
+        self.addCleanup(server.terminate)
 
     def start(self, command, **options):
         process = subprocess.Popen(command, stdin=subprocess.DEVNULL, **options)

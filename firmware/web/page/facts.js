@@ -1,10 +1,18 @@
 // The plan in figures, beside those of the plan before.
 import { by_id, make } from "./dom.js";
-import { agents_of } from "./judge.js";
+import { share_inside } from "./geometry.js";
+import { agents_of, areas_of } from "./judge.js";
 import { model } from "./model.js";
 import { percent, say, seconds } from "./words.js";
 
-let drawn = "";
+let drawn_from = [];
+
+/// In the areas as they are drawn now: so both plans are measured alike, and one can see what a new area would change.
+function preferred_share(plan, agent) {
+  const mine = areas_of(model).filter((area) => area.purpose === "preferred" && area.agent === agent).map((area) => area.polygon_m);
+  const path = plan?.agents?.[agent]?.waypoints_m;
+  return path && mine.length > 0 ? share_inside(path, mine) : null;
+}
 
 function rows_of(plan, agents) {
   const rows = [];
@@ -13,7 +21,7 @@ function rows_of(plan, agents) {
   row("et", say("facts.et"), (each) => or_none(each?.score?.expected_time_s, (value) => seconds(value, 1)));
   agents.forEach((agent, i) => {
     if (agent.kind !== "person") return;
-    row(`preferred-${i}`, say("facts.preferred", { name: agent.name }), (each) => or_none(each?.agents?.[i]?.preferred_share, percent));
+    row(`preferred-${i}`, say("facts.preferred", { name: agent.name }), (each) => or_none(preferred_share(each, i), percent));
   });
   row("gap", say("facts.gap"), (each) => or_none(each?.gap, percent));
   return rows;
@@ -25,10 +33,10 @@ export function show_facts(shown) {
   by_id("facts").hidden = !shown || !plan;
   if (!shown || !plan) return;
   const previous = model.documents.previous_plan;
+  const from = [plan, previous, model.documents.areas, model.documents.mission, document.documentElement.lang];
+  if (from.every((each, i) => each === drawn_from[i])) return;
+  drawn_from = from;
   const rows = rows_of(plan, agents_of(model));
-  const now = JSON.stringify([rows, previous?.number, document.documentElement.lang]);
-  if (now === drawn) return;
-  drawn = now;
   by_id("facts").classList.toggle("alone", !previous);
   by_id("facts-before").hidden = !previous;
   by_id("facts-rows").replaceChildren(...rows.map((row) => {

@@ -106,6 +106,32 @@ export function snapped([x, y], map) {
   return [snap(x, map.width_m), snap(y, map.height_m)];
 }
 
+export function contains(polygon, [x, y]) {
+  let inside = false;
+  polygon.forEach((a, i) => {
+    const b = polygon[(i + 1) % polygon.length];
+    if (a[1] > y !== b[1] > y && x < a[0] + ((y - a[1]) * (b[0] - a[0])) / (b[1] - a[1])) inside = !inside;
+  });
+  return inside;
+}
+
+const kLookEvery_m = 0.1;
+
+/// Of a path's length, as good as to a percent.
+export function share_inside(path, polygons) {
+  const all_m = length_m(path);
+  let inside_m = 0;
+  for (let i = 1; i < path.length; i += 1) {
+    const leg_m = distance_m(path[i - 1], path[i]);
+    const looks = Math.ceil(leg_m / kLookEvery_m);
+    for (let k = 0; k < looks; k += 1) {
+      const place = between(path[i - 1], path[i], (k + 0.5) / looks);
+      if (polygons.some((polygon) => contains(polygon, place))) inside_m += leg_m / looks;
+    }
+  }
+  return all_m > 0 ? inside_m / all_m : 0;
+}
+
 function turn(a, b, c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }

@@ -1,0 +1,123 @@
+#!/usr/bin/python3
+"""A whole search by people in front of screens: from drawing to the report, by mouse and by finger."""
+
+import json
+import os
+import unittest
+
+from console_rig import ConsoleTest
+
+# What two screens must agree on.
+SHOWN = """const text = (id) => document.getElementById(id).textContent;
+return { state: text("state"), title: text("now-title"), facts: document.getElementById("facts-rows").innerText,
+  areas: document.querySelectorAll(".area").length, paths: document.querySelectorAll(".path-left").length, list: document.getElementById("area-list").textContent }"""
+
+
+class WholeSearch(ConsoleTest):
+    def assert_same(self, *screens):
+        self.until(lambda: len({json.dumps(screen.js(SHOWN)) for screen in screens}) == 1, f"the same on all, {[screen.js(SHOWN) for screen in screens]}")
+
+    def draw(self, screen):
+        """A rectangle that Ana prefers, by a drag, and a polygon where nobody goes, by taps."""
+        browser = screen.browser
+        screen.press("tab-areas")
+        screen.press("purpose-prefer-1")
+        screen.press("draw-rectangle")
+        screen.wait("document.body.dataset.tool === 'rectangle'")
+        browser.drag(screen.place(4, 17), screen.place(20, 26.5), lambda: browser.picture("drawing"))
+        screen.wait("document.querySelector('.area[data-slot=\"0\"]')")
+        screen.press("purpose-no_go-")
+        screen.press("draw-polygon")
+        screen.wait("document.body.dataset.tool === 'polygon'")
+        for place in ((13, 8), (17.5, 8), (17.5, 12), (15, 13)):
+            browser.tap(screen.place(*place))
+        screen.wait("!document.getElementById('draw-done').hidden")
+        browser.picture("polygon")
+        browser.tap(screen.place(13, 8))
+        screen.wait("document.querySelector('.area[data-slot=\"1\"]')")
+
+    def agree(self, screen):
+        """Init, areas, Replan, the figures beside each other, Accept."""
+        screen.take_controls()
+        screen.wait_act("accept")
+        screen.press("init")
+        screen.wait_stage("plan")
+        screen.judge("planning")
+        screen.wait_act("accept")
+        self.draw(screen)
+        self.assertRegex(screen.text("area-0"), r"Ana prefers.*16\.0.×.9\.\d.m · 15\d.m² · \d\d.%.of probability")
+        self.assertRegex(screen.text("area-1"), r"No-go for everybody.*m²")
+        screen.judge("areas")
+        screen.press("replan-areas")
+        screen.wait_stage("plan")
+        screen.wait_act("accept")
+        screen.wait("!document.getElementById('facts-before').hidden && document.getElementById('fact-preferred-1')")
+        screen.judge("agree")
+        now, before = screen.js("return [...document.querySelectorAll('#fact-preferred-1 td')].map((cell) => parseInt(cell.textContent))")
+        self.assertGreater(now, before)
+        screen.act("accept", "document.body.dataset.act === 'hold-start'")
+        screen.judge("accepted")
+
+    def short_press(self, screen):
+        screen.wait_act("hold-start")
+        place = screen.middle("hold-start")
+        screen.browser.press(place)
+        screen.wait("document.getElementById('hold-start').classList.contains('held')")
+        screen.browser.release(place)
+        screen.wait("!document.getElementById('hold-start').classList.contains('held')")
+        self.assertEqual(screen.js("return [document.body.dataset.act, document.body.dataset.started]"), ["hold-start", "no"])
+
+    def test_two_screens_and_a_mouse(self):
+        self.begin()
+        ana, luis = self.screen("Ana's desk"), self.screen("Luis's tablet", "tablet")
+        self.agree(ana)
+        self.assert_same(ana, luis)
+        luis.judge("watching")
+        self.short_press(ana)
+        ana.hold_start(lambda: ana.browser.picture("holding"))
+        for screen in (ana, luis):
+            screen.wait_state("searching")
+        self.assert_same(ana, luis)
+        ana.wait("Number(document.getElementById('agent-progress-0').value) > 0.05")
+        ana.press("position-1")
+        ana.wait("document.body.dataset.tool === 'position'")
+        ana.browser.tap(ana.place(10.5, 8))
+        for screen in (ana, luis):
+            screen.wait_text("agent-words-1", "seen")
+        ana.judge("searching")
+        luis.judge("searching")
+        luis.act("found", "!document.getElementById('found-choice').hidden")  # who watches may say it too
+        luis.judge("who")
+        luis.press("found-1")
+        for screen in (ana, luis):
+            screen.wait_stage("end")
+            screen.wait_text("now-title", "Ana found the object!")
+            screen.wait("!document.getElementById('report-file').hidden")
+        self.assert_same(ana, luis)
+        ana.judge("found")
+        self.assertEqual(self.controller.wait(60), 0)
+        with open(os.path.join(self.out, "report.json"), encoding="utf-8") as file:
+            report = json.load(file)
+        self.assertIn(f"{report['agents'][0]['distance_m']:.1f}", ana.text("report-rows"))
+
+    def test_a_phone_and_fingers(self):
+        self.begin()
+        phone = self.screen("Ana's phone", "phone")
+        phone.judge("paired")
+        self.agree(phone)
+        self.short_press(phone)
+        phone.hold_start(lambda: phone.browser.picture("holding"))
+        phone.wait_state("searching")
+        phone.press("tab-search")
+        phone.browser.drag(phone.middle("agent-1"), phone.place(13, 6))
+        phone.wait_text("agent-words-1", "seen")
+        self.assertAlmostEqual(self.until(lambda: [each for each in self.events() if "reported" in json.dumps(each)], "a position") and 0, 0)
+        phone.judge("searching")
+        phone.act("found", "!document.getElementById('found-choice').hidden")
+        phone.press("found-1")
+        phone.wait_text("now-title", "Ana found the object!")
+        phone.judge("found")
+
+
+if __name__ == "__main__":
+    unittest.main()
