@@ -75,8 +75,8 @@ ReportDocument report_document(const RunView& run, const planner::Plan* plan, co
     const AgentSpec& spec = mission.agents[m];
     ReportedAgent agent{.name = spec.name, .kind = spec.kind, .planned_length_m = 0.0, .driven = {}};
     agent.planned_length_m = plan != nullptr ? plan->paths[m].length_m : 0.0;
-    // Nobody has reported where a reported person was.
-    if (spec.kind == AgentKind::kRobot || spec.motion == PersonMotion::kSimulated) {
+    const bool reported = status.report_age[m].has_value();
+    if (spec.kind == AgentKind::kRobot || spec.motion == PersonMotion::kSimulated || reported) {
       const AgentTrack& track = status.tracks[m];
       agent.driven = ReportedTrack{track.moved_m, mean_speed_mps(track), track.position};
     }
