@@ -165,11 +165,11 @@ class Campaign {
       const std::uint32_t pauses = rig_->loop().status().pauses;
       const bool knows = pauses == 0 || chance(4) > 0;
       consent.pauses = knows ? pauses : pauses - 1;
-      consent.watched = chance(2) == 0;
+      consent.watched = chance(4) > 0;
       const bool told = rig_->loop().command(consent);
       outside.consent = told && knows;
       outside.watched = consent.watched;
-      somebody_is_there_ = chance(2) == 0;
+      somebody_is_there_ = chance(3) == 0;
     }
 
     // Another plan, its refusal, reports: what the console's side of the program says to the loop.

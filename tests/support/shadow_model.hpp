@@ -204,7 +204,7 @@ class ShadowModel {
   // More than any ramp of these drives takes after they have missed our heartbeat.
   void look_at_wheels(const Outside& outside) {
     if (outside.wheels_turn && stopped_at_ && !consented_ && !outside.moved_by_others) {
-      expect(now_ - *stopped_at_ < shadow::ms(700), "wheels turn long after a fault");
+      expect(now_ - *stopped_at_ < shadow::ms(700), "wheels turn long after a fault or pause");
     }
   }
 
@@ -332,7 +332,10 @@ class ShadowModel {
     if (paused_at_ && consented_ && batch.commands > 0) {
       expect(speed_mps <= speed_mps_ + kRounding_mps, "faster in a pause");
       expect(batch.targets == 0 || now_ - *paused_at_ < shadow::ms(1200), "motion long after a pause");
-      consented_ = moving;  // once it stands somebody must agree anew
+      if (!moving) {  // once it stands somebody must agree anew
+        consented_ = false;
+        stopped_at_ = now_;
+      }
     }
     speed_mps_ = batch.commands > 0 ? speed_mps : speed_mps_;
   }
