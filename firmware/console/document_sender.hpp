@@ -22,8 +22,8 @@ class DocumentSender {
   [[nodiscard]] bool find(const DocumentShelf& shelf);
 
   std::array<std::uint32_t, kDocuments> had_{};  // revisions
-  std::size_t next_ = 0;                         // place of whose turn it is: one that changes often is not always first
-  std::optional<Document> document_;             // under way
+  std::size_t next_ = 0;              // place of whose turn it is: one that changes often is not always first
+  std::optional<Document> document_;  // under way
   DocumentShelf::Copy copy_;
   std::uint32_t from_ = 0;
   DocumentPart part_;

@@ -124,9 +124,7 @@ void ControlLoop::take_commands() noexcept {
 void ControlLoop::take(const OperatorCommand& command) noexcept {
   switch (command.kind) {
     case OperatorCommand::kConsent:
-      consent_ = command.pauses == pauses_;  // who agreed before a pause has not agreed to go on after it
-      watched_ = command.watched;
-      beat_at_ = now_;  // who agrees is there
+      agree(command);
       break;
     case OperatorCommand::kClearFault:
       clear_asked_ = mode_ == Mode::kFault;
@@ -158,6 +156,15 @@ void ControlLoop::take(const OperatorCommand& command) noexcept {
     case OperatorCommand::kReport:
       search_.report(command.agent, command.place, now_);
       break;
+  }
+}
+
+// Who agreed before a pause has not agreed to go on after it. Who agrees is there.
+void ControlLoop::agree(const OperatorCommand& consent) noexcept {
+  if (mode_ == Mode::kAwaitingConsent && consent.pauses == pauses_) {
+    consent_ = true;
+    watched_ = consent.watched;
+    beat_at_ = now_;
   }
 }
 

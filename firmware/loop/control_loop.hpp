@@ -111,6 +111,7 @@ class ControlLoop {
   void judge_time(const CycleStart& start) noexcept;
   void take_commands() noexcept;
   void take(const OperatorCommand& command) noexcept;
+  void agree(const OperatorCommand& consent) noexcept;
   void stop_for(StopCause cause) noexcept;
   void watch_beats() noexcept;
   void pause(PauseCause cause) noexcept;

@@ -385,7 +385,7 @@ class Resume(unittest.TestCase):
         self.cut_off(10)
         body = struct.pack("<IQI", 99, 1, 3) + b"abc"
         self.write_slots(b"IVOstate" + struct.pack("<I", zlib.crc32(body)) + body)
-        self.assert_refused(r"^ivo: .*/search\.state: kept by another version of ivo, in form 99; expected form 2")
+        self.assert_refused(r"^ivo: .*/search\.state: kept by another version of ivo, in form 99; expected form 3")
 
     def test_a_search_of_simulated_drives_is_not_taken_up_by_a_robot_nor_the_other_way_round(self):
         self.cut_off(10)

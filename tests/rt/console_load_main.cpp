@@ -208,8 +208,8 @@ int load(const std::string& path, int messages, int garbage, int seconds) {
     hear(polite.value().get(), sent.heard);
     hear(rude.value().get(), sent.heard);
   }
-  std::printf("%d messages, %d of garbage sent; %d not taken; %d messages heard\n", sent.messages, sent.garbage, sent.full,
-              sent.heard);
+  std::printf("%d messages, %d of garbage sent; %d not taken; %d messages heard\n", sent.messages, sent.garbage,
+              sent.full, sent.heard);
   return 0;
 }
 

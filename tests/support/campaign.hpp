@@ -28,6 +28,9 @@ struct CampaignFigures {
   int shared_lives = 0;  ///< of them, with shared targets at 1 kHz
   int starts = 0;        ///< times the wheels were set in motion
   int faults = 0;
+  int pauses = 0;      ///< in motion
+  int beats_lost = 0;  ///< of them, because nobody was there
+  int new_plans = 0;   ///< made anew and taken up by the loop
   std::map<drivers::DriveFaultReason, int> reasons;
   std::map<std::string, int> violations;
 };
@@ -65,6 +68,7 @@ class Campaign {
       SearchRig::Options options{.object = std::nullopt, .generations = 1, .fault_waits = true};
       options.inputs = &inputs_;
       options.layout = layout_;
+      options.person = chance(2) == 0 ? PersonMotion::kSimulated : PersonMotion::kReported;
       options.between = [this](hal::CanBus& port) -> hal::CanBus& {
         rough_.emplace(port, random_);
         shadowed_.emplace(*rough_, shadow_);
@@ -89,6 +93,9 @@ class Campaign {
       figures.certain_events += shadow_.certain_events();
       figures.starts += shadow_.starts();
       figures.faults += shadow_.faults();
+      figures.pauses += shadow_.pauses();
+      figures.beats_lost += shadow_.beats_lost();
+      figures.new_plans += static_cast<int>(rig_->loop().status().plan_number) - 1;
       for (const auto& [rule, count] : shadow_.violations()) {
         figures.violations[rule] += count;
       }
@@ -105,6 +112,7 @@ class Campaign {
       }
       ShadowModel::Outside outside;
       press_buttons(outside);
+      talk(outside);
       press_inputs(outside);
       if (late_ > 0) {
         rig_->be_late(late_);
@@ -130,7 +138,15 @@ class Campaign {
 
     void press_buttons(ShadowModel::Outside& outside) {
       if (chance(consent_every_) == 0) {
-        outside.consent = rig_->loop().command(OperatorCommand::kConsent);
+        agree(outside);
+      }
+      if (chance(2000) == 0) {
+        rig_->loop().request_pause();
+        outside.pause = true;
+      }
+      if (somebody_is_there_ && chance(200) == 0) {
+        rig_->loop().beat();
+        outside.beat = true;
       }
       if (chance(100) == 0) {
         outside.clear = rig_->loop().command(OperatorCommand::kClearFault);
@@ -140,6 +156,46 @@ class Campaign {
       }
       if (chance(50'000) == 0) {
         (void)rig_->loop().command(OperatorCommand::kNoConsent);
+      }
+    }
+
+    // Who has not heard of the last pause agrees to nothing.
+    void agree(ShadowModel::Outside& outside) {
+      OperatorCommand consent(OperatorCommand::kConsent);
+      const std::uint32_t pauses = rig_->loop().status().pauses;
+      const bool knows = pauses == 0 || chance(4) > 0;
+      consent.pauses = knows ? pauses : pauses - 1;
+      consent.watched = chance(4) > 0;
+      const bool told = rig_->loop().command(consent);
+      outside.consent = told && knows;
+      outside.watched = consent.watched;
+      somebody_is_there_ = chance(3) == 0;
+    }
+
+    // Another plan, its refusal, reports: what the console's side of the program says to the loop.
+    void talk(ShadowModel::Outside& outside) {
+      if (!wants_plan_ && chance(4000) == 0) {
+        wants_plan_ = rig_->loop().command(OperatorCommand::kPlanAnew);
+        outside.pause = outside.pause || wants_plan_;
+      } else if (wants_plan_ && chance(300) == 0) {
+        const bool stands = !firmware::permissions(rig_->loop().status().mode).may_move;
+        const bool made = stands && chance(2) == 0;
+        const bool told = made ? rig_->plan_with(1) : rig_->loop().command(OperatorCommand::kPlanAsBefore);
+        wants_plan_ = !told;
+      }
+      if (chance(50) == 0) {
+        OperatorCommand report(OperatorCommand::kReport);
+        report.agent = static_cast<std::uint8_t>(chance(3));
+        report.place = {0.5 + chance(12), 0.5 + chance(12)};
+        (void)rig_->loop().command(report);
+      }
+      if (chance(20'000) == 0) {
+        OperatorCommand found(OperatorCommand::kFound);
+        found.agent = static_cast<std::uint8_t>(chance(3));
+        (void)rig_->loop().command(found);
+      }
+      if (chance(2000) == 0) {
+        (void)rig_->loop().command(OperatorCommand::kEnough);
       }
     }
 
@@ -313,6 +369,8 @@ class Campaign {
     std::optional<Instant> silent_since_;
     bool others_command_ = false;
     bool faulty_ = false;
+    bool somebody_is_there_ = true;
+    bool wants_plan_ = false;
     int stuck_ = 0;  // cycles in one fault
     int late_ = 0;
   };

@@ -39,15 +39,17 @@ class SearchRig {
     firmware::Tracer* tracer = nullptr;
     hal::Clock* trace_stopwatch = nullptr;
     const firmware::ResumedSearch* resumed = nullptr;
+    PersonMotion person = PersonMotion::kSimulated;
   };
 
   explicit SearchRig(const Options& options)
       : robot_(robot(options.layout)),
         drives_(bus_.port(1), robot_, drivers::SimDrives::TimeFrom::kClock, options.scripts) {
-    prepare(options.generations);
+    prepare(planner(), options.generations, {Point{1.5, 1.5}, Point{10.5, 1.5}});
     firmware::LoopSetup setup{.robot = robot_, .start = {1.5, 1.5, 0.0}, .searchers = {}, .object = {}};
     (void)setup.searchers.push_back({.kind = AgentKind::kRobot, .start = {1.5, 1.5}, .speed_mps = 0.5});
-    (void)setup.searchers.push_back({.kind = AgentKind::kPerson, .start = {10.5, 1.5}, .speed_mps = 0.5});
+    (void)setup.searchers.push_back(
+        {.kind = AgentKind::kPerson, .motion = options.person, .start = {10.5, 1.5}, .speed_mps = 0.5});
     setup.fault_waits = options.fault_waits;
     setup.overruns_count_only = options.overruns_count_only;
     setup.stopwatch = options.stopwatch != nullptr ? options.stopwatch : options.trace_stopwatch;
@@ -123,8 +125,35 @@ class SearchRig {
     if (!run_until(firmware::Mode::kAwaitingConsent)) {
       return false;
     }
-    loop_->command(firmware::OperatorCommand::kConsent);
-    return run_until(firmware::Mode::kSearching, std::chrono::seconds(1));
+    return consent() && run_until(firmware::Mode::kSearching, std::chrono::seconds(1));
+  }
+  /// Somebody agrees to what is shown now.
+  bool consent(bool watched = false) {
+    firmware::OperatorCommand consent(firmware::OperatorCommand::kConsent);
+    consent.watched = watched;
+    consent.pauses = loop_->status().pauses;
+    return loop_->command(consent);
+  }
+  /// Somebody wants another plan, which is made ready: of so many generations, from where everybody is once the robot
+  /// stands.
+  bool plan_anew(int generations) {
+    if (!loop_->command(firmware::OperatorCommand::kPlanAnew)) {
+      return false;
+    }
+    do {
+      cycle();
+    } while (!loop_->status().preparing || firmware::permissions(loop_->status().mode).may_move);
+    return plan_with(generations);
+  }
+  /// The loop has heard that a plan is to be made anew, and the robot stands.
+  bool plan_with(int generations) {
+    const auto& tracks = loop_->status().tracks;
+    planner::Planner& other = thinking_ == &planner() ? spare_planner() : planner();
+    prepare(other, generations, {tracks[0].position, tracks[1].position});
+    firmware::OperatorCommand with(firmware::OperatorCommand::kPlanWith);
+    with.planner = &other;
+    thinking_ = &other;
+    return loop_->command(with);
   }
   /// True while any simulated wheel turns.
   bool wheels_turn() {
@@ -177,29 +206,34 @@ class SearchRig {
     }
     return robot_.base.wheel_radius_m * sum / 4;
   }
-  // One for the program: it is large.
+  // One for the program: it is large; and another, for plans that are made anew.
   static planner::Planner& planner() {
     static planner::Planner planner;
     return planner;
   }
-  static void prepare(int generations) {
+  static planner::Planner& spare_planner() {
+    static planner::Planner planner;
+    return planner;
+  }
+  static void prepare(planner::Planner& planner, int generations, const std::array<Point, 2>& starts) {
     const DrawnMap map(12, 12, 0.25);
     planner::SearchProblem problem;
     problem.map = map.view();
     problem.graph.spacing_m = 3.0;
     problem.colony.generations = generations;
-    for (const Point start : {Point{1.5, 1.5}, Point{10.5, 1.5}}) {
+    for (const Point start : starts) {
       planner::SearchAgent agent;
       agent.body.start = start;
       (void)problem.agents.push_back(agent);
     }
-    IVO_CONTRACT(!planner().prepare(problem));
+    IVO_CONTRACT(!planner.prepare(problem));
   }
 
   hal::VirtualBus bus_;
   Robot robot_;
   drivers::SimDrives drives_;
   std::unique_ptr<firmware::ControlLoop> loop_;
+  planner::Planner* thinking_ = &planner();
   Instant now_{};
   Point true_position_{1.5, 1.5};
 };

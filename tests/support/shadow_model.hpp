@@ -28,7 +28,10 @@ class ShadowModel {
   struct Outside {
     Instant now{};
     std::int64_t skipped = 0;
-    bool consent = false;
+    bool consent = false;  ///< to what is shown, by somebody who knows of every pause so far
+    bool watched = false;  ///< of it: it counts only while beats come
+    bool pause = false;    ///< asked for, also by whoever wants another plan
+    bool beat = false;
     bool clear = false;
     bool bus_lost = false;
     std::uint64_t receive_dropped = 0;  ///< in all
@@ -49,9 +52,7 @@ class ShadowModel {
       cleared_ = true;
       last_clear_ = now_;
     }
-    if (outside.consent && mode_ == Mode::kAwaitingConsent && cleared_) {
-      consented_ = true;
-    }
+    look_at_operator(outside);
     look_outside(outside);
     look_at_wheels(outside);
   }
@@ -112,6 +113,7 @@ class ShadowModel {
     }
     if (stopped && mode_ != shown) {
       consented_ = false;
+      paused_at_.reset();
       cleared_ = false;
       stopped_at_ = now_;
       ++faults_;
@@ -123,6 +125,9 @@ class ShadowModel {
   [[nodiscard]] std::uint64_t frames() const { return frames_; }
   [[nodiscard]] int faults() const { return faults_; }
   [[nodiscard]] int starts() const { return starts_; }
+  /// In motion, because it was asked for or because no beat came.
+  [[nodiscard]] int pauses() const { return pauses_; }
+  [[nodiscard]] int beats_lost() const { return beats_lost_; }
   [[nodiscard]] std::uint64_t certain_events() const { return certain_events_; }
 
  private:
@@ -152,6 +157,30 @@ class ShadowModel {
     }
   }
 
+  // Who agrees before a pause, or in its cycle, has not agreed to go on after it.
+  void look_at_operator(const Outside& outside) {
+    if (outside.consent && !outside.pause && mode_ == Mode::kAwaitingConsent && cleared_) {
+      consented_ = true;
+      watched_ = outside.watched;
+      beat_at_ = now_;
+      paused_at_.reset();
+    }
+    if (outside.beat) {
+      beat_at_ = now_;
+    }
+    const bool beat_lost = watched_ && mode_ == Mode::kSearching && now_ - beat_at_ > robot_.loop.beat_timeout;
+    if (!outside.pause && !beat_lost) {
+      return;
+    }
+    if (mode_ != Mode::kSearching) {
+      consented_ = consented_ && in_motion();  // as long as it ramps down
+    } else if (!paused_at_) {
+      paused_at_ = now_;
+      ++pauses_;
+      beats_lost_ += outside.pause ? 0 : 1;
+    }
+  }
+
   void look_outside(const Outside& outside) {
     if (outside.bus_lost) {
       certain("bus lost");
@@ -161,10 +190,10 @@ class ShadowModel {
     }
     dropped_ = outside.receive_dropped;
     stop_input_ = outside.stop_input;
-    if (stop_input_ && (mode_ == Mode::kSearching || mode_ == Mode::kStopping)) {
+    if (stop_input_ && in_motion()) {
       certain("stop input");
     }
-    if (outside.skipped >= 5 && (mode_ == Mode::kSearching || mode_ == Mode::kStopping)) {
+    if (outside.skipped >= 5 && in_motion()) {
       certain("late");
     }
     if (unsent_ >= 5) {
@@ -175,7 +204,7 @@ class ShadowModel {
   // More than any ramp of these drives takes after they have missed our heartbeat.
   void look_at_wheels(const Outside& outside) {
     if (outside.wheels_turn && stopped_at_ && !consented_ && !outside.moved_by_others) {
-      expect(now_ - *stopped_at_ < shadow::ms(700), "wheels turn long after a fault");
+      expect(now_ - *stopped_at_ < shadow::ms(700), "wheels turn long after a fault or pause");
     }
   }
 
@@ -283,7 +312,8 @@ class ShadowModel {
     const bool moving = batch.enabling > 0 || batch.targets > 0;
     const auto enabled = [](const Drive& drive) { return drive.enabled(); };
     const bool all_enabled = std::all_of(drives_.begin(), drives_.end(), enabled);
-    expect(!moving || consented_, "motion without consent since the last fault");
+    judge_pause(moving, batch);
+    expect(!moving || consented_, "motion without consent since the last fault or pause");
     expect(!moving || certain_.empty(), "motion in the cycle of a fault");
     expect(!moving || !stop_input_, "motion while a stop input is pressed");
     expect(batch.enabling == 0 || batch.enabling == kWheels, "power for some of four");
@@ -296,7 +326,39 @@ class ShadowModel {
     starts_ += batch.targets > 0 && !moving_before_ ? 1 : 0;
   }
 
+  // A ramp from full speed takes 0.7 s; late cycles, which are held, draw it out.
+  void judge_pause(bool moving, const Batch& batch) {
+    const double speed_mps = speed();
+    if (paused_at_ && consented_ && batch.commands > 0) {
+      expect(speed_mps <= speed_mps_ + kRounding_mps, "faster in a pause");
+      expect(batch.targets == 0 || now_ - *paused_at_ < shadow::ms(1200), "motion long after a pause");
+      if (!moving) {  // once it stands somebody must agree anew
+        consented_ = false;
+        stopped_at_ = now_;
+      }
+    }
+    speed_mps_ = batch.commands > 0 ? speed_mps : speed_mps_;
+  }
+
+  /// Of the base along the ground, as told: mecanum kinematics over FL, FR, RL, RR.
+  [[nodiscard]] double speed() const {
+    constexpr std::array<int, kWheels> kSideways{-1, 1, 1, -1};
+    double along = 0.0;
+    double sideways = 0.0;
+    for (std::size_t i = 0; i < drives_.size(); ++i) {
+      const double rim_mps = drives_[i].rim_mps * robot_.drives[i].sign;
+      along += rim_mps / kWheels;
+      sideways += kSideways[i] * rim_mps / kWheels;
+    }
+    return std::hypot(along, sideways);
+  }
+
+  [[nodiscard]] bool in_motion() const {
+    return mode_ == Mode::kSearching || mode_ == Mode::kStopping || mode_ == Mode::kPausing;
+  }
+
   static constexpr double kSearchSpeed_mps = 0.5;
+  static constexpr double kRounding_mps = 1e-3;
 
   Robot robot_;
   std::array<Drive, kWheels> drives_{};
@@ -307,6 +369,10 @@ class ShadowModel {
   bool moving_before_ = false;
   bool cleared_ = true;  // nothing to clear at the beginning
   bool consented_ = false;
+  bool watched_ = false;
+  Instant beat_at_{};
+  std::optional<Instant> paused_at_;  // in motion, and nobody has agreed since
+  double speed_mps_ = 0.0;            // told last
   std::optional<Instant> last_clear_;
   std::optional<Instant> stopped_at_;
   bool stop_input_ = false;
@@ -319,6 +385,8 @@ class ShadowModel {
   std::uint64_t frames_ = 0;
   int faults_ = 0;
   int starts_ = 0;
+  int pauses_ = 0;
+  int beats_lost_ = 0;
 };
 
 }  // namespace ivo::test

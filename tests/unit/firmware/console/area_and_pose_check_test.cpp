@@ -90,35 +90,36 @@ using AreaCheckTest = OneForm<AreaCommand>;
 using PoseCheckTest = OneForm<PoseCommand>;
 
 TEST_F(AreaCheckTest, RefusesEveryFieldThatIsWrong) {
-  expect_refused(triangle(), {
-                                 {Verdict::kWrongMagic, [](AreaCommand& a) { a.header.magic ^= 1U; }},
-                                 {Verdict::kWrongVersion, [](AreaCommand& a) { --a.header.version; }},
-                                 {Verdict::kWrongSize, [](AreaCommand& a) { a.header.size = sizeof(Command); }},
-                                 {Verdict::kWrongSize, [](AreaCommand& a) { a.header.kind = Kind::kPose; }},
-                                 {Verdict::kWrongSize, [](AreaCommand& a) { a.header.kind = Kind::kStop; }},
-                                 {Verdict::kUnknownKind, [](AreaCommand& a) { a.header.kind = static_cast<Kind>(16); }},
-                                 {Verdict::kOutOfRange, [](AreaCommand& a) { a.slot = kAreaSlots; }},
-                                 {Verdict::kOutOfRange, [](AreaCommand& a) { a.slot = 255; }},
-                                 {Verdict::kOutOfRange, [](AreaCommand& a) { a.purpose = static_cast<AreaPurpose>(2); }},
-                                 {Verdict::kOutOfRange, [](AreaCommand& a) { a.agent = kAgents; }},
-                                 {Verdict::kOutOfRange, [](AreaCommand& a) { a.agent = AreaCommand::kEverybody; }},
-                                 {Verdict::kOutOfRange, [](AreaCommand& a) { a.corners = kAreaCorners + 1; }},
-                                 {Verdict::kOutOfRange, [](AreaCommand& a) { a.corners = 255; }},
-                                 {Verdict::kNotAnArea, [](AreaCommand& a) { a.corners = 2; }},
-                                 {Verdict::kNotAnArea, [](AreaCommand& a) { a.corners = 0; }},
-                                 {Verdict::kNotZero, [](AreaCommand& a) { a.zero = 1; }},
-                                 {Verdict::kNotZero, [](AreaCommand& a) { a.corner[3].x_m = 1e-300; }},
-                                 {Verdict::kNotZero, [](AreaCommand& a) { a.corner[3].y_m = kNotANumber; }},
-                                 {Verdict::kNotZero, [](AreaCommand& a) { a.corner[kAreaCorners - 1].y_m = -1; }},
-                                 {Verdict::kOutOfRange, [](AreaCommand& a) { a.corner[0].x_m = kNotANumber; }},
-                                 {Verdict::kOutOfRange, [](AreaCommand& a) { a.corner[2].y_m = kNotANumber; }},
-                                 {Verdict::kOutOfRange, [](AreaCommand& a) { a.corner[1].x_m = kInfinite; }},
-                                 {Verdict::kOutOfRange, [](AreaCommand& a) { a.corner[1].y_m = -kInfinite; }},
-                                 {Verdict::kOutOfRange, [](AreaCommand& a) { a.corner[1].y_m = 1e300; }},
-                                 {Verdict::kOutOfRange, [](AreaCommand& a) { a.corner[1].y_m = -1.0001e6; }},
-                                 {Verdict::kReplayed, [](AreaCommand& a) { a.header.sequence = 0; }},
-                                 {Verdict::kOutOfOrder, [](AreaCommand& a) { a.header.sequence = 2; }},
-                             });
+  expect_refused(triangle(),
+                 {
+                     {Verdict::kWrongMagic, [](AreaCommand& a) { a.header.magic ^= 1U; }},
+                     {Verdict::kWrongVersion, [](AreaCommand& a) { --a.header.version; }},
+                     {Verdict::kWrongSize, [](AreaCommand& a) { a.header.size = sizeof(Command); }},
+                     {Verdict::kWrongSize, [](AreaCommand& a) { a.header.kind = Kind::kPose; }},
+                     {Verdict::kWrongSize, [](AreaCommand& a) { a.header.kind = Kind::kStop; }},
+                     {Verdict::kUnknownKind, [](AreaCommand& a) { a.header.kind = static_cast<Kind>(16); }},
+                     {Verdict::kOutOfRange, [](AreaCommand& a) { a.slot = kAreaSlots; }},
+                     {Verdict::kOutOfRange, [](AreaCommand& a) { a.slot = 255; }},
+                     {Verdict::kOutOfRange, [](AreaCommand& a) { a.purpose = static_cast<AreaPurpose>(2); }},
+                     {Verdict::kOutOfRange, [](AreaCommand& a) { a.agent = kAgents; }},
+                     {Verdict::kOutOfRange, [](AreaCommand& a) { a.agent = AreaCommand::kEverybody; }},
+                     {Verdict::kOutOfRange, [](AreaCommand& a) { a.corners = kAreaCorners + 1; }},
+                     {Verdict::kOutOfRange, [](AreaCommand& a) { a.corners = 255; }},
+                     {Verdict::kNotAnArea, [](AreaCommand& a) { a.corners = 2; }},
+                     {Verdict::kNotAnArea, [](AreaCommand& a) { a.corners = 0; }},
+                     {Verdict::kNotZero, [](AreaCommand& a) { a.zero = 1; }},
+                     {Verdict::kNotZero, [](AreaCommand& a) { a.corner[3].x_m = 1e-300; }},
+                     {Verdict::kNotZero, [](AreaCommand& a) { a.corner[3].y_m = kNotANumber; }},
+                     {Verdict::kNotZero, [](AreaCommand& a) { a.corner[kAreaCorners - 1].y_m = -1; }},
+                     {Verdict::kOutOfRange, [](AreaCommand& a) { a.corner[0].x_m = kNotANumber; }},
+                     {Verdict::kOutOfRange, [](AreaCommand& a) { a.corner[2].y_m = kNotANumber; }},
+                     {Verdict::kOutOfRange, [](AreaCommand& a) { a.corner[1].x_m = kInfinite; }},
+                     {Verdict::kOutOfRange, [](AreaCommand& a) { a.corner[1].y_m = -kInfinite; }},
+                     {Verdict::kOutOfRange, [](AreaCommand& a) { a.corner[1].y_m = 1e300; }},
+                     {Verdict::kOutOfRange, [](AreaCommand& a) { a.corner[1].y_m = -1.0001e6; }},
+                     {Verdict::kReplayed, [](AreaCommand& a) { a.header.sequence = 0; }},
+                     {Verdict::kOutOfOrder, [](AreaCommand& a) { a.header.sequence = 2; }},
+                 });
 }
 
 TEST_F(AreaCheckTest, TakesAsManyCornersAsThereIsRoomFor) {
@@ -168,8 +169,9 @@ TEST_F(PoseCheckTest, RefusesEveryFieldThatIsWrong) {
   for (std::size_t i = 0; i < PoseCommand{}.zero.size(); ++i) {
     rows.push_back({Verdict::kNotZero, [i](PoseCommand& p) { p.zero[i] = 0x80; }});
   }
-  for (double PoseCommand::*const field : {&PoseCommand::x_m, &PoseCommand::y_m, &PoseCommand::heading_rad,
-                                           &PoseCommand::sigma_m, &PoseCommand::sigma_heading_rad, &PoseCommand::age_s}) {
+  for (double PoseCommand::*const field :
+       {&PoseCommand::x_m, &PoseCommand::y_m, &PoseCommand::heading_rad, &PoseCommand::sigma_m,
+        &PoseCommand::sigma_heading_rad, &PoseCommand::age_s}) {
     for (const double number : {kNotANumber, -kNotANumber, kInfinite, -kInfinite}) {
       rows.push_back({Verdict::kOutOfRange, [field, number](PoseCommand& p) { p.*field = number; }});
     }

@@ -20,9 +20,8 @@ class ConsoleDeskTest : public testing::Test {
   void ask(Asks asks) { desk_.show({}, asks); }
 
   int stops_ = 0;
-  ConsoleDesk desk_{{.agents = 2, .width_m = 20, .height_m = 10},
-                    {},
-                    {.stop = [this] { ++stops_; }, .pause = [] {}, .beat = [] {}}};
+  ConsoleDesk desk_{
+      {.agents = 2, .width_m = 20, .height_m = 10}, {}, {.stop = [this] { ++stops_; }, .pause = [] {}, .beat = [] {}}};
 };
 
 TEST_F(ConsoleDeskTest, TakesAPingAtAnyTimeAndChangesNothing) {

@@ -36,9 +36,8 @@ class ConsoleSocketTest : public testing::Test {
 
   ScratchFolder folder_;
   std::atomic<int> stops_{0};
-  ConsoleDesk desk_{{.agents = 2, .width_m = 20, .height_m = 10},
-                    {},
-                    {.stop = [this] { ++stops_; }, .pause = [] {}, .beat = [] {}}};
+  ConsoleDesk desk_{
+      {.agents = 2, .width_m = 20, .height_m = 10}, {}, {.stop = [this] { ++stops_; }, .pause = [] {}, .beat = [] {}}};
   std::optional<ConsoleSocket> socket_;
 };
 

@@ -85,9 +85,9 @@ class DocumentSenderTest : public testing::Test {
     EXPECT_EQ(heard.bytes.size(), part->from) << "in order";
     const char* const bytes = reinterpret_cast<const char*>(part->bytes.data());
     heard.bytes.append(bytes, part->count);
-    EXPECT_TRUE(std::all_of(part->bytes.begin() + part->count, part->bytes.end(),
-                            [](std::byte byte) { return byte == std::byte{}; }))
-        << "nothing else goes out";
+    EXPECT_TRUE(std::all_of(part->bytes.begin() + part->count, part->bytes.end(), [](std::byte byte) {
+      return byte == std::byte{};
+    })) << "nothing else goes out";
     heard.times += heard.bytes.size() == part->whole ? 1 : 0;
     sender_.sent();
     return true;

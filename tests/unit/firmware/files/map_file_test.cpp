@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "firmware/files/class_file.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -69,6 +73,54 @@ TEST(MapFile, RefusesTheColourOfAClassThatItsTableDoesNotList) {
             folder.path("a.png") +
                 ": pixel in column 0, row 1 from the top (0.25 m, 0.75 m) is #94c070, the colour of no class; expected "
                 "colours of the class table, the nearest is road #787a80");
+}
+
+// The same ground as a photograph of `width` x `height` pixels, whatever it shows.
+std::string aerial(std::uint32_t width, std::uint32_t height) {
+  return written_png(width, height, {}, std::vector<std::uint8_t>(std::size_t{3} * width * height, 77));
+}
+
+TEST(MapFile, TakesAnAerialViewAsItIsWhateverItsResolution) {
+  for (const auto& [width, height] : {std::pair(1U, 3U), std::pair(100U, 300U), std::pair(100U, 301U)}) {
+    const ScratchFolder folder;
+    folder.put("a.png", written_png(1, 3, {}, kThreeRows));
+    const std::string bytes = aerial(width, height);
+    folder.put("photo.png", bytes);
+    const auto map = read_map(folder.put("a.toml", "image = 'a.png'\nresolution_m = 0.5\naerial = 'photo.png'\n"));
+    ASSERT_TRUE(map.ok()) << map.error().message;
+    EXPECT_EQ(map.value().aerial_path, folder.path("photo.png"));
+    EXPECT_EQ(map.value().aerial, bytes) << "for others to read";
+  }
+}
+
+TEST(MapFile, OneWithoutAnAerialViewHasNone) {
+  const ScratchFolder folder;
+  folder.put("a.png", written_png(1, 3, {}, kThreeRows));
+  const auto map = read_map(folder.put("a.toml", "image = 'a.png'\nresolution_m = 0.5\n"));
+  ASSERT_TRUE(map.ok()) << map.error().message;
+  EXPECT_EQ(map.value().aerial, "");
+  EXPECT_EQ(map.value().aerial_path, "");
+}
+
+TEST(MapFile, RefusesAnAerialViewOfAnotherShapeByItsLine) {
+  const ScratchFolder folder;
+  folder.put("a.png", written_png(1, 3, {}, kThreeRows));
+  folder.put("photo.png", aerial(100, 310));
+  EXPECT_EQ(message_of(read_map(folder.put("a.toml", "image = 'a.png'\nresolution_m = 0.5\naerial = 'photo.png'\n"))),
+            folder.path("a.toml") + ":3: aerial: " + folder.path("photo.png") +
+                ": is 100 x 310 pixels; expected the shape of the map, 1 x 3");
+}
+
+TEST(MapFile, RefusesAnAerialViewThatIsNoImageByItsLine) {
+  const ScratchFolder folder;
+  folder.put("a.png", written_png(1, 3, {}, kThreeRows));
+  folder.put("photo.png", "no image");
+  const std::string said =
+      message_of(read_map(folder.put("a.toml", "aerial = 'photo.png'\nimage = 'a.png'\nresolution_m = 0.5\n")));
+  EXPECT_EQ(said.rfind(folder.path("a.toml") + ":1: aerial: " + folder.path("photo.png") + ": ", 0), 0U) << said;
+  const std::string missing =
+      message_of(read_map(folder.put("a.toml", "aerial = 'none.png'\nimage = 'a.png'\nresolution_m = 0.5\n")));
+  EXPECT_EQ(missing.rfind(folder.path("a.toml") + ":1: aerial: " + folder.path("none.png") + ": ", 0), 0U) << missing;
 }
 
 TEST(MapFile, NamesTheLineOfAnImageThatCannotBeRead) {

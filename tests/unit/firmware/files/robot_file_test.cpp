@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+
 #include "firmware/files/text_file.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/firmware/files/complaint.hpp"
@@ -141,6 +143,22 @@ TEST(RobotFile, RefusesEveryNumberOutOfRange) {
     ++numbers;
   }
   EXPECT_EQ(numbers, 34);
+}
+
+TEST(RobotFile, ReadsHowLongItGoesOnWithoutItsOperator) {
+  const ScratchFolder folder;
+  const auto usual = read_robot(folder.put("r.toml", kRobot));
+  ASSERT_TRUE(usual.ok());
+  EXPECT_EQ(usual.value().loop.beat_timeout, LoopParameters{}.beat_timeout);
+  const auto robot =
+      read_robot(folder.put("r.toml", replaced(kRobot, "[bus]", "[loop]\noperator_timeout_s = 0.5\n[bus]")));
+  ASSERT_TRUE(robot.ok()) << robot.error().message;
+  EXPECT_EQ(robot.value().loop.beat_timeout, std::chrono::milliseconds(500));
+  for (const char* const wrong : {"0.49", "61", "nan", "-1"}) {
+    const std::string said =
+        complaint_about_robot("[bus]", std::string("[loop]\noperator_timeout_s = ") + wrong + "\n[bus]");
+    EXPECT_EQ(said.rfind("r.toml:15: loop.operator_timeout_s: ", 0), 0U) << said;
+  }
 }
 
 }  // namespace

@@ -32,7 +32,9 @@ TEST(Campaign, NoFrameBreaksARuleInAHundredThousandCyclesOfRandomFaults) {
   std::cout << "seed " << seed() << ": " << figures.cycles << " cycles, " << figures.lives << " lives ("
             << figures.shared_lives << " at 1 kHz), " << figures.frames << " frames sent, set in motion "
             << figures.starts << " times, " << figures.faults << " faults latched for " << figures.reasons.size()
-            << " reasons, " << figures.certain_events << " events without doubt\n";
+            << " reasons, " << figures.certain_events << " events without doubt, " << figures.pauses
+            << " pauses in motion (" << figures.beats_lost << " without a beat), " << figures.new_plans
+            << " plans made anew\n";
   EXPECT_TRUE(figures.violations.empty()) << list(figures.violations);
   // It was a hard life, and the robot lived it.
   EXPECT_GE(figures.cycles, 100'000U);
@@ -40,6 +42,9 @@ TEST(Campaign, NoFrameBreaksARuleInAHundredThousandCyclesOfRandomFaults) {
   EXPECT_GE(figures.starts, 100);
   EXPECT_GE(figures.faults, 100);
   EXPECT_GE(figures.reasons.size(), 10U);
+  EXPECT_GE(figures.pauses, 30);
+  EXPECT_GE(figures.beats_lost, 3);
+  EXPECT_GE(figures.new_plans, 10);
 }
 
 /// A master that does wrong, and the rule that it breaks.
@@ -85,7 +90,7 @@ bool has_commands(const Frames& frames) {
 INSTANTIATE_TEST_SUITE_P(
     Planted, CampaignShadow,
     testing::Values(
-        Wrong{"motion without consent since the last fault",
+        Wrong{"motion without consent since the last fault or pause",
               [](Frames& frames) { for_commands(frames, [](hal::CanFrame& frame) { frame.data[0] = 0x0F; }); }},
         Wrong{"power for some of four",
               [](Frames& frames) {
@@ -163,6 +168,24 @@ INSTANTIATE_TEST_SUITE_P(
                   if (frame.data[0] == 0x0F) {
                     frame.data[4] = 0x7F;
                     frame.data[5] = 0x00;
+                  }
+                });
+              }},
+        Wrong{"faster in a pause",
+              [count = 0](Frames& frames) mutable {
+                for_commands(frames, [&](hal::CanFrame& frame) {
+                  if (frame.data[0] == 0x0F && ++count % 40 < 4) {
+                    frame.data[3] ^= 0x08;
+                  }
+                });
+              }},
+        Wrong{"motion long after a pause",
+              [](Frames& frames) {
+                for_commands(frames, [](hal::CanFrame& frame) {
+                  const int target = frame.data[2] | frame.data[3] << 8 | frame.data[4] << 16;
+                  if (frame.data[0] == 0x0F && frame.data[5] == 0 && target < 6000) {
+                    frame.data[2] = 0x70;  // a crawl that is no fault of the wheels
+                    frame.data[3] = 0x17;
                   }
                 });
               }},

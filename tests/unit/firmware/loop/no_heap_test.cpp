@@ -59,6 +59,43 @@ TEST(ControlLoop, NoCycleAllocatesFromPlanningToPowerOff) {
   EXPECT_EQ(allocations, 1) << "the count itself does not work";
 }
 
+TEST(ControlLoop, APauseAndAPlanThatIsMadeAnewAllocateNothingEither) {
+  test::SearchRig rig({.fault_waits = true, .person = PersonMotion::kReported});
+  ASSERT_TRUE(rig.start_search());
+  OperatorCommand report(OperatorCommand::kReport);
+  report.agent = 1;
+  report.place = {9.5, 3.5};
+  bool went_on = true;
+  const int before = allocations;
+  counting = true;
+  {
+    const test::NoHeap no_heap;
+    rig.run(std::chrono::seconds(2));
+    rig.loop().request_pause();
+    went_on = rig.loop().command(report) && rig.run_until(Mode::kAwaitingConsent, std::chrono::seconds(3));
+    went_on = went_on && rig.consent(true) && rig.run_until(Mode::kSearching, std::chrono::seconds(1));
+    rig.loop().beat();
+    went_on = went_on && rig.run_until(Mode::kAwaitingConsent, std::chrono::seconds(9));  // nobody is there
+  }
+  counting = false;
+  ASSERT_TRUE(went_on);
+  ASSERT_TRUE(rig.plan_anew(3)) << "the tables are not made in a cycle";
+  counting = true;
+  {
+    const test::NoHeap no_heap;
+    went_on = rig.run_until(Mode::kAwaitingConsent, std::chrono::seconds(30)) && rig.consent() &&
+              rig.run_until(Mode::kSearching, std::chrono::seconds(1));
+    rig.run(std::chrono::seconds(2));
+    OperatorCommand found(OperatorCommand::kFound);
+    found.agent = 1;
+    went_on = went_on && rig.loop().command(OperatorCommand::kEnough) && rig.loop().command(found) &&
+              rig.run_until(Mode::kDone, std::chrono::seconds(3));
+  }
+  counting = false;
+  EXPECT_TRUE(went_on);
+  EXPECT_EQ(allocations, before);
+}
+
 TEST(ControlLoop, ToRecordItsFramesAllocatesNothingEither) {
   const auto ring = std::make_unique<FrameRing>();
   std::optional<RecordingBus> recording;

@@ -61,9 +61,8 @@ TEST(CommandGate, PassesAnAllowedCommandUnchanged) {
 }
 
 TEST(CommandGate, PassesInNoModeAndConditionButTheRightOnes) {
-  const std::array<Mode, kModes> modes{Mode::kPlanning,  Mode::kStarting, Mode::kAwaitingConsent,
-                                       Mode::kSearching, Mode::kStopping, Mode::kDone,
-                                       Mode::kFault,     Mode::kPausing};
+  const std::array<Mode, kModes> modes{Mode::kPlanning, Mode::kStarting, Mode::kAwaitingConsent, Mode::kSearching,
+                                       Mode::kStopping, Mode::kDone,     Mode::kFault,           Mode::kPausing};
   const std::vector<std::pair<Duration, bool>> ages{
       {0ms, true}, {kAgeLimit, true}, {kAgeLimit + 1ns, false}, {Duration::max(), false}, {-1ns, false}};
   const std::vector<std::pair<Pose, bool>> poses{

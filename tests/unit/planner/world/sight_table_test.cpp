@@ -45,11 +45,11 @@ Refusal build(const DrawnMap& map, double cell_m, double spacing_m, const GraphA
   return s.sight.build(s.cells, s.graph, radii_m);
 }
 
-using CellSet = std::set<Cell>;
+using SeenCells = std::set<Cell>;
 using Points = std::pair<int, int>;  // first and last, both included
 
 // What is seen from a point, tried cell by cell.
-void look(Point from, double radius_m, CellSet& seen) {
+void look(Point from, double radius_m, SeenCells& seen) {
   const Cells& cells = scene().cells;
   for (Cell c = 0; c < cells.count(); ++c) {
     if (within_radius(cells, from, c, radius_m) && line_of_sight(cells, from, c)) {
@@ -58,15 +58,15 @@ void look(Point from, double radius_m, CellSet& seen) {
   }
 }
 
-CellSet cells_of(const SightView& view) {
-  CellSet cells;
+SeenCells cells_of(const SightView& view) {
+  SeenCells cells;
   test::for_each_cell(scene().cells, scene().sight, view, [&](Cell c, const Swath&) { cells.insert(c); });
   return cells;
 }
 
 // The view's cells by the points, counted along the way, from which they are seen.
-std::map<Points, CellSet> parts_of(const SightView& view, int points) {
-  std::map<Points, CellSet> parts;
+std::map<Points, SeenCells> parts_of(const SightView& view, int points) {
+  std::map<Points, SeenCells> parts;
   test::for_each_cell(scene().cells, scene().sight, view, [&](Cell c, const Swath& swath) {
     const Points range = view.reversed ? Points{points - swath.last_point, points - swath.first_point}
                                        : Points{swath.first_point, swath.last_point};
@@ -94,13 +94,13 @@ TEST(SightTable, AgreesWithALookFromEveryPointOfEveryEdgeBothWays) {
   int long_edges = 0;
   for (int agent = 0; agent < agents; ++agent) {
     const double radius_m = radii_m[index(agent)];
-    const auto observe = [&](const CellSet& seen) {
+    const auto observe = [&](const SeenCells& seen) {
       for (const Cell c : seen) {
         observable[c] = static_cast<AgentSet>(observable[c] | agent_bit(agent));
       }
     };
     for (Node n = 0; n < s.graph.nodes(); ++n) {
-      CellSet from_node;
+      SeenCells from_node;
       look(s.graph.position(n), radius_m, from_node);
       ASSERT_EQ(cells_of(s.sight.from_node(agent, n)), from_node);
       observe(from_node);
@@ -109,11 +109,11 @@ TEST(SightTable, AgreesWithALookFromEveryPointOfEveryEdgeBothWays) {
         const int points = sight_points(s.graph.length_m(e), 0.25);
         ASSERT_EQ(s.sight.points(e), points);
         int next = 0;  // the parts follow each other on the way, and share the point between them
-        const std::map<Points, CellSet> parts = parts_of(s.sight.along_edge(agent, e), points);
+        const std::map<Points, SeenCells> parts = parts_of(s.sight.along_edge(agent, e), points);
         for (const auto& [range, cells] : parts) {
           ASSERT_EQ(range.first, next);
           next = range.second;
-          CellSet seen;
+          SeenCells seen;
           for (int k = range.first; k <= range.second; ++k) {
             look(sight_point(s.graph.position(n), s.graph.position(s.graph.head(e)), k, points), radius_m, seen);
           }
@@ -208,7 +208,7 @@ TEST(SightTable, RefusesMoreRowsThanItsCapacityAndSaysHowManyThereWouldBe) {
 TEST(SightTable, IsBuiltAgainAfterARefusal) {
   ASSERT_TRUE(build(DrawnMap(420.0, 2.0, 0.5), 0.25, 210.0, agents_from({{105.0, 1.0}}), {0.3}));
   ASSERT_FALSE(build(DrawnMap(3.0, 3.0, 0.5), 0.5, 3.0, agents_from({{1.5, 1.5}}), {1.0}));
-  CellSet seen;
+  SeenCells seen;
   look({1.5, 1.5}, 1.0, seen);
   EXPECT_EQ(cells_of(scene().sight.from_node(0, 0)), seen);
 }

@@ -42,7 +42,7 @@ class ReplayTest : public ::testing::Test {
     search.started = true;
     search.robot = {1.5, 0, 0.2};
     search.distance_left_m = 6.5;
-    search.progress = {.tracks = {AgentTrack{{1.5, 0}, 1.5, 3s, false}, AgentTrack{{13, 0}, 3.0, 3s, false}},
+    search.progress = {.tracks = {AgentTrack{{1.5, 0}, 1.5, 0.0, 3s, false}, AgentTrack{{13, 0}, 3.0, 0.0, 3s, false}},
                        .elapsed = 3s,
                        .state = {},
                        .finder = {}};
