@@ -92,7 +92,8 @@ bool is_known(std::string_view name) {
 Result<ConsoleOptions> parse_console_options(std::span<const char* const> arguments, const ConsolePlaces& places) {
   ConsoleOptions options;
   // Installed, or in the folder that it was built in.
-  options.page = places.program_folder + (places.program_folder.ends_with("/bin") ? "/../share/ivo-console/web" : "/web");
+  options.page =
+      places.program_folder + (places.program_folder.ends_with("/bin") ? "/../share/ivo-console/web" : "/web");
   options.state = places.state_home.empty() ? "/var/lib/ivo-console" : places.state_home + "/ivo-console";
   bool role_said = false;
   for (std::size_t i = 0; i < arguments.size(); ++i) {

@@ -1,17 +1,17 @@
-#include "firmware/web/document_assembly.hpp"
+#include "firmware/console/document_assembly.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-namespace ivo::firmware::web {
+namespace ivo::firmware::console {
 namespace {
 
 using Outcome = DocumentAssembly::Outcome;
 
-console::DocumentPart part_of(const std::string& whole, std::size_t from, std::size_t count,
+DocumentPart part_of(const std::string& whole, std::size_t from, std::size_t count,
                               std::uint32_t revision = 1) {
-  console::DocumentPart part;
+  DocumentPart part;
   part.revision = revision;
   part.whole = static_cast<std::uint32_t>(whole.size());
   part.from = static_cast<std::uint32_t>(from);
@@ -47,11 +47,11 @@ TEST(DocumentAssembly, BeginsAnewWithAnotherRevision) {
 
 TEST(DocumentAssembly, RefusesAPartThatCannotFollow) {
   const std::string text = "abcdef";
-  const console::DocumentPart second = part_of(text, 3, 3);
+  const DocumentPart second = part_of(text, 3, 3);
   const auto after_the_first = [&](auto change) {
     DocumentAssembly assembly;
     EXPECT_EQ(assembly.add(part_of(text, 0, 3)), Outcome::kMore);
-    console::DocumentPart part = second;
+    DocumentPart part = second;
     change(part);
     return assembly.add(part);
   };
@@ -72,10 +72,10 @@ TEST(DocumentAssembly, RefusesAPartThatCannotFollow) {
 
 TEST(DocumentAssembly, RefusesWhatIsTooLargeAtOnce) {
   DocumentAssembly assembly;
-  console::DocumentPart part = part_of("abc", 0, 3);
-  part.whole = console::kLargestDocument + 1;
+  DocumentPart part = part_of("abc", 0, 3);
+  part.whole = kLargestDocument + 1;
   EXPECT_EQ(assembly.add(part), Outcome::kRefused);
 }
 
 }  // namespace
-}  // namespace ivo::firmware::web
+}  // namespace ivo::firmware::console
