@@ -87,8 +87,8 @@ Verdict ConsoleDesk::take_word(const Command& command) {
       hooks_.stop();
       return Verdict::kAccepted;
     case Kind::kPause:
+      nothing_is_agreed();  // first: what was agreed to before is not taken after it
       hooks_.pause();
-      nothing_is_agreed();
       return Verdict::kAccepted;
     case Kind::kBeat:
       hooks_.beat();

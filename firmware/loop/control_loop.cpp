@@ -136,8 +136,10 @@ void ControlLoop::take(const OperatorCommand& command) noexcept {
       stop_for(StopCause::kPlanNotKept);
       break;
     case OperatorCommand::kPlanAnew:
-      slices_.hold();
-      pause(PauseCause::kReplan);
+      if (mode_ != Mode::kStopping && mode_ != Mode::kDone && mode_ != Mode::kFault) {
+        slices_.hold();
+        pause(PauseCause::kReplan);
+      }
       break;
     case OperatorCommand::kPlanWith:
       slices_.begin_anew(*command.planner);
@@ -151,7 +153,9 @@ void ControlLoop::take(const OperatorCommand& command) noexcept {
       slices_.end_here(now_);
       break;
     case OperatorCommand::kFound:
-      search_.found_by(command.agent);
+      if (search_.found_by(command.agent)) {
+        record_find();
+      }
       break;
     case OperatorCommand::kReport:
       search_.report(command.agent, command.place, now_);
@@ -161,7 +165,8 @@ void ControlLoop::take(const OperatorCommand& command) noexcept {
 
 // Who agreed before a pause has not agreed to go on after it. Who agrees is there.
 void ControlLoop::agree(const OperatorCommand& consent) noexcept {
-  if (mode_ == Mode::kAwaitingConsent && consent.pauses == pauses_) {
+  const bool of_now = consent.pauses == pauses_ && (consent.times_ready == 0 || consent.times_ready == times_ready_);
+  if (mode_ == Mode::kAwaitingConsent && of_now) {
     consent_ = true;
     watched_ = consent.watched;
     beat_at_ = now_;
@@ -250,20 +255,29 @@ void ControlLoop::look_for_object() noexcept {
   if (!search_started_ || (mode_ != Mode::kSearching && !others_go_on) || search_.state() != SearchState::kRunning) {
     return;
   }
-  search_.update(now_, odometry_.pose().point(), following_.reached);
+  // Who waits for another plan has not come to the end of the last one.
+  const bool plan_stands = slices_.ready() && !slices_.newer();
+  search_.update(now_, odometry_.pose().point(), following_.reached, plan_stands);
   if (search_.state() == SearchState::kFound) {
-    const int finder = *search_.finder();
-    record(EventKind::kFound, static_cast<std::uint8_t>(finder), 0,
-           object_.place().value_or(search_.track(finder).position));
+    record_find();
   } else if (search_.state() == SearchState::kPathsEnded) {
     record(EventKind::kPathsEnded);
   }
   if (now_ >= next_position_) {
     next_position_ = now_ + kPositionEvery;
     for (int agent = 0; agent < search_.agents(); ++agent) {
+      if (!search_.present(agent)) {
+        continue;
+      }
       record(EventKind::kPosition, static_cast<std::uint8_t>(agent), 0, search_.track(agent).position);
     }
   }
+}
+
+void ControlLoop::record_find() noexcept {
+  const int finder = *search_.finder();
+  record(EventKind::kFound, static_cast<std::uint8_t>(finder), 0,
+         object_.place().value_or(search_.track(finder).position));
 }
 
 void ControlLoop::decide_mode() noexcept {

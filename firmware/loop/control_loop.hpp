@@ -135,6 +135,7 @@ class ControlLoop {
   void begin_search() noexcept;
   void take_new_plan() noexcept;
   void record_fault() noexcept;
+  void record_find() noexcept;
   void trace_motion() noexcept;
   void fail(const drivers::DriveFault& fault) noexcept;
   void enter(Mode mode) noexcept;
@@ -198,7 +199,7 @@ class ControlLoop {
   std::array<hal::ReceivedFrame, limits::kFramesPerCycle> frames_{};
 
   Latest<LoopStatus> status_;
-  SpscRing<OperatorCommand, 16> commands_;
+  SpscRing<OperatorCommand, 64> commands_;
   std::atomic<bool> pause_requested_{false};
   std::atomic<std::uint32_t> beats_{0};
   static_assert(std::atomic<std::uint32_t>::is_always_lock_free);

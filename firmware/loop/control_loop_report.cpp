@@ -37,6 +37,8 @@ void ControlLoop::publish() noexcept {
   status.search_started = search_started_ || left_off_m_;
   status.consented = consented_;
   status.distance_left_m = distance_left_m();
+  status.way_of_plan = slices_.newer() ? slices_.number() : slices_.followed_number();
+  status.way_followed = !slices_.newer() && slices_.followed_number() > 0;
   status.finder = search_.finder();
   status.search_time = search_.elapsed();
   status.stop_cause = stop_cause_;

@@ -46,6 +46,9 @@ struct LoopStatus {
   bool search_started = false;   ///< by this run, or by the one that it takes up
   bool consented = false;        ///< somebody has agreed in this run
   double distance_left_m = 0.0;  ///< of the robot's path, once it follows it
+  /// The plan that distance_left_m and the tracks' before_m are about; 0: none yet.
+  std::uint32_t way_of_plan = 0;
+  bool way_followed = false;  ///< it is the one followed, not one that waits for consent
   std::optional<int> finder;
   Duration search_time{};
   StopCause stop_cause = StopCause::kNone;
@@ -82,8 +85,11 @@ struct OperatorCommand {
 
   Kind kind;
   std::uint8_t agent = 0;
-  bool watched = false;      ///< of a consent: it counts only while beats come
-  std::uint32_t pauses = 0;  ///< of a consent: LoopStatus::pauses when it was given; it is void after another pause
+  bool watched = false;  ///< of a consent: it counts only while beats come
+  /// Of a consent: LoopStatus::pauses and times_ready when it was given; it is void after another pause, and when the
+  /// robot was not ready in between. times_ready 0: to whichever is now.
+  std::uint32_t pauses = 0;
+  std::uint32_t times_ready = 0;
   Point place;
   planner::Planner* planner = nullptr;  ///< outlives the loop
 };

@@ -57,10 +57,15 @@ class PlannerSlices {
   /// For the loop, once ready.
   [[nodiscard]] const planner::Plan& plan() const noexcept { return plans_[newest_]; }
   /// The plan is followed from here on, and stays as it is until another is.
-  void follow() noexcept { followed_ = newest_; }
+  void follow() noexcept {
+    followed_ = newest_;
+    followed_number_ = number_;
+  }
   /// A plan is ready that is not the one followed.
   [[nodiscard]] bool newer() const noexcept { return ready() && followed_ != newest_; }
   [[nodiscard]] std::uint32_t number() const noexcept { return number_; }
+  /// Of the plan that is followed; 0: none yet.
+  [[nodiscard]] std::uint32_t followed_number() const noexcept { return followed_number_; }
   /// For one other thread.
   [[nodiscard]] const ShownPlan& shown() noexcept { return shown_.read(); }
   [[nodiscard]] planner::Progress progress() const noexcept { return planner_->progress(); }
@@ -84,6 +89,7 @@ class PlannerSlices {
   PlannerPace pace_;
   std::int64_t units_ = 0;
   std::uint32_t number_ = 1;
+  std::uint32_t followed_number_ = 0;
   bool ready_ = false;
   bool held_ = false;
   bool better_ = false;  // than what is shown

@@ -70,11 +70,13 @@ void SearchRun::report(int agent, Point place, Instant now) noexcept {
   reported_at_[m] = now;
 }
 
-void SearchRun::found_by(int agent) noexcept {
-  if (plan_ != nullptr && state_ == SearchState::kRunning && agent >= 0 && agent < agents()) {
-    finder_ = agent;
-    state_ = SearchState::kFound;
+bool SearchRun::found_by(int agent) noexcept {
+  if (plan_ == nullptr || state_ != SearchState::kRunning || agent < 0 || agent >= agents()) {
+    return false;
   }
+  finder_ = agent;
+  state_ = SearchState::kFound;
+  return true;
 }
 
 std::optional<Duration> SearchRun::report_age(int agent, Instant now) const noexcept {
@@ -101,7 +103,7 @@ bool SearchRun::at_the_end(std::size_t agent) const noexcept {
          track.moved_m - track.before_m >= 0.5 * path.length_m;
 }
 
-void SearchRun::update(Instant now, Point robot, bool robot_path_ended) noexcept {
+void SearchRun::update(Instant now, Point robot, bool robot_path_ended, bool plan_stands) noexcept {
   if (state_ != SearchState::kRunning) {
     return;
   }
@@ -132,7 +134,7 @@ void SearchRun::update(Instant now, Point robot, bool robot_path_ended) noexcept
   }
   if (finder_) {
     state_ = SearchState::kFound;
-  } else if (all_ended) {
+  } else if (all_ended && plan_stands) {
     state_ = SearchState::kPathsEnded;
   }
 }

@@ -60,12 +60,13 @@ class SearchRun {
 
   /// A person whose place comes from outside is at `place`; of others nothing is heeded.
   void report(int agent, Point place, Instant now) noexcept;
-  /// Somebody says so; heeded while the search goes on.
-  void found_by(int agent) noexcept;
+  /// Somebody says so; heeded, and true, while the search goes on.
+  bool found_by(int agent) noexcept;
 
   /// One cycle: the robot is at `robot` and has or has not come to the end of its path; simulated persons walk on.
   /// Cost: a line of sight an agent.
-  void update(Instant now, Point robot, bool robot_path_ended) noexcept;
+  /// `plan_stands`: the paths may end the search.
+  void update(Instant now, Point robot, bool robot_path_ended, bool plan_stands = true) noexcept;
 
   [[nodiscard]] SearchState state() const noexcept { return state_; }
   /// The lowest-numbered agent that found it.
@@ -73,6 +74,8 @@ class SearchRun {
   /// Real search time so far: from the start to the find, or to the last update.
   [[nodiscard]] Duration elapsed() const noexcept { return elapsed_; }
   [[nodiscard]] const AgentTrack& track(int agent) const noexcept { return tracks_[static_cast<std::size_t>(agent)]; }
+  /// It is known where that agent is.
+  [[nodiscard]] bool present(int agent) const noexcept { return present(static_cast<std::size_t>(agent)); }
   /// None: never reported.
   [[nodiscard]] std::optional<Duration> report_age(int agent, Instant now) const noexcept;
   [[nodiscard]] int agents() const noexcept { return static_cast<int>(searchers_.size()); }

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "config/base/geometry.hpp"
+#include "planner/numeric/index.hpp"
 #include "planner/search/belief.hpp"
 #include "planner/world/cell_set.hpp"
 #include "planner/world/cells.hpp"
@@ -22,6 +23,8 @@ class SearchedMap {
   void look(const planner::Cells& cells, Point from, double radius_m) noexcept;
 
   [[nodiscard]] const planner::CellSet& cells() const noexcept { return searched_; }
+  /// Probability of one, searched or not, as it was before anybody searched.
+  [[nodiscard]] double share(planner::Cell c) const noexcept { return static_cast<double>(share_[planner::index(c)]); }
   /// Probability of them, 0 to 1.
   [[nodiscard]] double mass() const noexcept { return mass_; }
   /// Grows with each new cell.

@@ -45,13 +45,19 @@ void RunSession::to_the_end() {
 int RunSession::write_and_tell() {
   const LoopStatus& status = loop_.status();
   const RunOutcome outcome = outcome_of(*view_, status, world_.stalled());
-  const planner::Plan* plan = status.plan_ready ? &loop_.plan() : nullptr;
-  if (plan != nullptr) {
+  note_followed(status);
+  const planner::Plan* plan = followed_ ? &followed_->plan : status.plan_ready ? &loop_.plan() : nullptr;
+  if (status.plan_ready) {
     show_plan_once(status);
   }
   question_.close();
   terminal_.show_result(outcome, status, plan, world_.lapses());
-  const std::string report = report_json(report_document(*view_, plan, status, outcome));
+  ReportDocument document = report_document(*view_, plan, status, outcome);
+  if (followed_) {
+    document.score = followed_->score;
+    document.bounds = followed_->bounds;
+  }
+  const std::string report = report_json(document);
   const bool reported = write("report.json", report);
   if (console_ != nullptr) {
     console_->dialogue().show_report(report);
@@ -120,8 +126,12 @@ void RunSession::observe(int wait_ms) {
   mode_shown_ = status.mode;
   asks_ = console::Asks::kNothing;
   observe_console(status);
+  note_followed(status);
   if (consent_.withdrawn_by(status)) {
     question_.close();
+    if (console_ != nullptr) {  // an answer that lies there was to what is not asked any more
+      show_at_console(status, console::Asks::kNothing);
+    }
   }
   switch (status.mode) {
     case Mode::kPlanning:
@@ -161,6 +171,17 @@ void RunSession::observe(int wait_ms) {
   }
 }
 
+// The plan of the report: a newer one may be made, or wait for consent, when the search ends.
+void RunSession::note_followed(const LoopStatus& status) {
+  const bool follows = status.way_followed && status.plan_ready && status.way_of_plan == status.plan_number;
+  if (!follows || !status.search_started || (followed_ && followed_->number == status.plan_number)) {
+    return;
+  }
+  const planner::Plan& plan = loop_.plan();
+  followed_ = std::make_unique<FollowedPlan>(
+      FollowedPlan{status.plan_number, plan, score_document(*view_, plan.score), bounds_of(*view_, plan.score)});
+}
+
 void RunSession::show_plan_once(const LoopStatus& status) {
   if (plan_shown_ == status.plan_number) {
     return;
@@ -172,13 +193,15 @@ void RunSession::show_plan_once(const LoopStatus& status) {
   const int generations = taken_over ? resumed->generations : status.planning.generation;
   trace_.show_plan(plan);
   terminal_.show_plan(plan);
+  const bool failed_before = std::exchange(write_failed_, false);
   (void)write("plan.json", plan_json(plan_document(*view_, plan, {generations})));
   write_picture(plan, status, {RunEnd::kNoConsent, "the plans, before anybody consented"});
-  if (const Result<void> kept = keeper_.keep_plan(plan, generations, status.plan_number > 1, log_); !kept) {
+  if (const Result<void> kept = keeper_.keep_plan(plan, generations, status, log_); !kept) {
     keeping_failed_ = true;
     note(kept.error());
   }
   plan_not_kept_ = write_failed_;
+  write_failed_ = write_failed_ || failed_before;
   if (plan_not_kept_) {  // nobody agrees to what cannot be kept
     (void)loop_.command(OperatorCommand::kPlanNotKept);
   }
@@ -232,7 +255,12 @@ bool RunSession::seek_consent(const LoopStatus& status) {
     OperatorCommand consent(OperatorCommand::kConsent);
     consent.watched = said.watched;
     consent.pauses = status.pauses;
-    consent_.answer(loop_.command(consent));
+    consent.times_ready = status.times_ready;
+    const bool told = loop_.command(consent);
+    consent_.answer(told);
+    if (!told && console_ != nullptr) {  // is asked anew
+      show_at_console(status, console::Asks::kNothing);
+    }
   } else if (said.answer == Answer::kNo) {
     consent_.answer(loop_.command(OperatorCommand::kNoConsent));
   }
@@ -301,10 +329,11 @@ void RunSession::observe_console(const LoopStatus& status) {
     return;
   }
   console_->dialogue().observe(status);
-  if (const std::optional<Error>& failure = console_->dialogue().failure(); failure && !areas_not_kept_) {
+  const std::optional<Error>& failure = console_->dialogue().failure();
+  if (failure && !areas_not_kept_) {
     note({failure->message + "; a run that is cut off now loses the areas that are drawn"});
-    areas_not_kept_ = true;
   }
+  areas_not_kept_ = failure.has_value();
   const RunView& view = console_->dialogue().view();
   if (&view != view_) {
     view_ = &view;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -41,6 +42,15 @@ class RunSession {
 
  private:
   void observe(int wait_ms);
+  /// A plan that somebody has set off on, and what it was worth.
+  struct FollowedPlan {
+    std::uint32_t number = 0;
+    planner::Plan plan;
+    ScoreDocument score;
+    BoundsDocument bounds;
+  };
+
+  void note_followed(const LoopStatus& status);
   void show_plan_once(const LoopStatus& status);
   void keep(const LoopStatus& status);
   void write_picture(const planner::Plan& plan, const LoopStatus& status, const RunOutcome& outcome);
@@ -78,8 +88,9 @@ class RunSession {
   ConsentState consent_;
   console::Asks asks_{};          // what we are waiting for
   std::uint32_t plan_shown_ = 0;  // its number
-  bool plan_not_kept_ = false;    // when it was shown
-  bool write_failed_ = false;     // anything, at any time
+  std::unique_ptr<FollowedPlan> followed_;
+  bool plan_not_kept_ = false;  // when it was shown
+  bool write_failed_ = false;   // anything, at any time
   bool keeping_failed_ = false;
   bool areas_not_kept_ = false;
 };

@@ -15,8 +15,10 @@ using console::Document;
 using console::Kind;
 
 constexpr Duration kSearchedEvery = std::chrono::milliseconds(400);
+constexpr Duration kAreasAgain = std::chrono::seconds(1);  // where they could not be written
 
 bool moves(Mode mode) { return permissions(mode).may_move; }
+bool ends(Mode mode) { return mode == Mode::kStopping || mode == Mode::kDone || mode == Mode::kFault; }
 
 }  // namespace
 
@@ -47,8 +49,9 @@ Result<void> Dialogue::keep_areas_at(const std::string& path, bool taken_up) {
   if (!drawn) {
     return drawn.error();
   }
-  if (!drawn.value()) {
-    draw(inputs_.file.mission, desk_);
+  if (!drawn.value() && !draw(inputs_.file.mission, desk_)) {
+    return Error{inputs_.file.path + ": has more areas than can be drawn at a console, " +
+                 std::to_string(console::kAreaSlots) + "; expected fewer, or no --console"};
   }
   return {};
 }
@@ -97,12 +100,16 @@ void Dialogue::take_requests() {
 void Dialogue::go_on(const LoopStatus& status) {
   switch (step_) {
     case Step::kHalting:
-      if (status.preparing && !moves(status.mode) && !status.finished) {
+      // A robot in fault brakes by itself: it stands when its power is off.
+      if (status.preparing && !moves(status.mode) && (status.mode != Mode::kFault || status.power_off)) {
         prepare(status);
+      } else if (!status.preparing && ends(status.mode)) {  // it was too late for another plan
+        step_ = Step::kIdle;
       }
       break;
     case Step::kPreparing:
-      if (maker_.done()) {
+      if (maker_.done() || made_) {
+        made_ = true;
         maker_.refusal() ? refuse(maker_.refusal()) : hand_over();
       }
       break;
@@ -115,6 +122,9 @@ void Dialogue::go_on(const LoopStatus& status) {
       }
       break;
     case Step::kIdle:
+      if (status.preparing) {  // what it waits for does not come
+        (void)loop_.command(OperatorCommand::kPlanAsBefore);
+      }
       break;
   }
   plan_before_ = status.plan_number;
@@ -142,14 +152,18 @@ void Dialogue::hand_over() {
   with.planner = &spare();
   if (loop_.command(with)) {
     step_ = Step::kHandedOver;
+    made_ = false;
   }
 }
 
 void Dialogue::refuse(const planner::Refusal& refusal) {
+  if (!loop_.command(OperatorCommand::kPlanAsBefore)) {
+    return;  // again in the next turn
+  }
+  made_ = false;
   const PlanNotice notice = notice_of(refusal, inputs_, slots_);
   (void)desk_.documents().put(Document::kNotice, notice_text(notice, ++notices_));
   inputs_.file.mission.agents = agents_before_;
-  (void)loop_.command(OperatorCommand::kPlanAsBefore);
   step_ = Step::kIdle;
 }
 
@@ -188,9 +202,14 @@ void Dialogue::lay_down(const LoopStatus& status) {
   const planner::Planner& planner = *planners_[current_];
   if (const console::AreaBoard board = desk_.areas(); board.revision() != areas_shown_) {
     areas_shown_ = board.revision();
-    (void)shelf.put(Document::kAreas, areas_text(board, *planners_[0]));
-    const Result<void> kept = keep_areas(areas_path_, board, inputs_.file.mission);
+    (void)shelf.put(Document::kAreas, areas_text(board, planner.cells(), searched_));
+  }
+  if (areas_kept_ != areas_shown_ && (areas_tried_ != areas_shown_ || status.at - areas_tried_at_ >= kAreasAgain)) {
+    areas_tried_ = areas_shown_;
+    areas_tried_at_ = status.at;
+    const Result<void> kept = keep_areas(areas_path_, desk_.areas(), inputs_.file.mission);
     failure_ = kept ? std::nullopt : std::optional(kept.error());
+    areas_kept_ = kept ? areas_shown_ : areas_kept_;
   }
   const bool due = status.at - searched_shown_at_ >= kSearchedEvery || status.finished;
   if (searched_.count() != searched_shown_ && due) {

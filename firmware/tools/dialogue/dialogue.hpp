@@ -87,6 +87,7 @@ class Dialogue {
   Instant searched_shown_at_{};
   PlanMaker maker_;
   Step step_ = Step::kIdle;
+  bool made_ = false;  // by the maker, and the loop has not been told
   bool preferred_wanted_ = false;
   bool preferred_ = false;  // the current plan heeds preferred areas
   std::vector<AgentSpec> agents_before_;
@@ -95,6 +96,9 @@ class Dialogue {
   std::uint32_t notices_ = 0;
   std::uint32_t areas_shown_ = 0;
   std::string areas_path_;
+  std::uint32_t areas_kept_ = 0;  // revisions
+  std::uint32_t areas_tried_ = 0;
+  Instant areas_tried_at_{};
   std::optional<Error> failure_;
   PlanMark plan_shown_;
   std::string plan_ready_;                         // the last that was planned to its end, as a document

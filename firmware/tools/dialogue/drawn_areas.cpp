@@ -50,8 +50,9 @@ std::vector<AgentSpec> agents_with(const std::vector<AgentSpec>& agents, const c
   return drawn;
 }
 
-void draw(const Mission& mission, console::ConsoleDesk& desk) {
+bool draw(const Mission& mission, console::ConsoleDesk& desk) {
   std::uint8_t slot = 0;
+  bool all = true;
   const auto put = [&](const Polygon& border, AreaPurpose purpose, std::size_t agent) {
     AreaCommand area;
     area.slot = slot;
@@ -63,6 +64,8 @@ void draw(const Mission& mission, console::ConsoleDesk& desk) {
     }
     if (slot < console::kAreaSlots && desk.put(area) == console::Verdict::kAccepted) {
       ++slot;
+    } else {
+      all = false;
     }
   };
   for (std::size_t m = 0; m < mission.agents.size(); ++m) {
@@ -73,6 +76,7 @@ void draw(const Mission& mission, console::ConsoleDesk& desk) {
       put(border, AreaPurpose::kNoGo, m);
     }
   }
+  return all;
 }
 
 }  // namespace ivo::firmware

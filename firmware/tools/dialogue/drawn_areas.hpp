@@ -20,8 +20,8 @@ using PreferredSlots = std::array<std::vector<std::uint8_t>, limits::kAgents>;
 [[nodiscard]] std::vector<AgentSpec> agents_with(const std::vector<AgentSpec>& agents, const console::AreaBoard& board,
                                                  bool preferred, PreferredSlots& slots);
 
-/// The mission's own areas, drawn. What has no room there is left out.
-void draw(const Mission& mission, console::ConsoleDesk& desk);
+/// The mission's own areas, drawn. False when not all have room there.
+[[nodiscard]] bool draw(const Mission& mission, console::ConsoleDesk& desk);
 
 [[nodiscard]] Polygon border_of(const console::DrawnArea& area);
 /// m^2, of a simple polygon.

@@ -68,15 +68,22 @@ Json json_of(const planner::AgentPath& path, const AgentSpec& agent) {
   return json;
 }
 
-double mass_within(const planner::Planner& planner, const Polygon& border) {
+double mass_within(const planner::Cells& cells, const SearchedMap& searched, const Polygon& border) {
   planner::Area area;
   for (const Point corner : border) {
     (void)area.push_back(corner);
   }
+  const auto [west, east] = std::ranges::minmax(border, {}, &Point::x_m);
+  const auto [south, north] = std::ranges::minmax(border, {}, &Point::y_m);
+  const auto line = [&](double at_m, int count) {
+    return static_cast<int>(std::clamp(at_m / cells.cell_m(), 0.0, static_cast<double>(count - 1)));
+  };
   double mass = 0.0;
-  for (const planner::Cell cell : planner.belief().cells_with_mass()) {
-    if (planner::contains(area, planner.cells().centre(cell))) {
-      mass += planner::to_double(planner.belief().mass[planner::index(cell)]);
+  for (int row = line(south.y_m, cells.rows()); row <= line(north.y_m, cells.rows()); ++row) {
+    for (int column = line(west.x_m, cells.columns()); column <= line(east.x_m, cells.columns()); ++column) {
+      if (planner::contains(area, cells.centre(column, row))) {
+        mass += searched.share(cells.at(column, row));
+      }
     }
   }
   return mass;
@@ -143,7 +150,7 @@ std::string plan_text(const PlanView& view, const ShownPlan& shown, bool with_pr
                     {"agents", agents}});
 }
 
-std::string areas_text(const console::AreaBoard& board, const planner::Planner& planner) {
+std::string areas_text(const console::AreaBoard& board, const planner::Cells& cells, const SearchedMap& searched) {
   Json areas = Json::list();
   for (std::size_t slot = 0; slot < board.slots().size(); ++slot) {
     const auto& area = board.slots()[slot];
@@ -160,7 +167,7 @@ std::string areas_text(const console::AreaBoard& board, const planner::Planner& 
                               {"purpose", area->purpose == console::AreaPurpose::kNoGo ? "no_go" : "preferred"},
                               {"agent", everybody ? Json() : Json(static_cast<std::uint64_t>(area->agent))},
                               {"polygon_m", corners},
-                              {"share", mass_within(planner, border)},
+                              {"share", mass_within(cells, searched, border)},
                               {"area_m2", area_m2(border)}});
   }
   return json_text({{"areas", areas}});

@@ -22,8 +22,10 @@ namespace ivo::firmware {
 /// A bit a cell.
 [[nodiscard]] std::string searched_bytes(const planner::Cells& cells, const planner::CellSet& searched);
 [[nodiscard]] std::string plan_text(const PlanView& view, const ShownPlan& shown, bool with_preferences);
-/// With the share of the probability that each covers, of what anybody can observe.
-[[nodiscard]] std::string areas_text(const console::AreaBoard& board, const planner::Planner& planner);
+/// With the share of the probability that each covers, of what anybody can observe. Cost: the cells of their extents
+/// times their corners.
+[[nodiscard]] std::string areas_text(const console::AreaBoard& board, const planner::Cells& cells,
+                                     const SearchedMap& searched);
 [[nodiscard]] std::string notice_text(const PlanNotice& notice, std::uint32_t number);
 
 }  // namespace ivo::firmware

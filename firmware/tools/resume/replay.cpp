@@ -115,9 +115,9 @@ void replay(const LoggedRun& log, const Searchers& searchers, const Pose& start,
   }
   for (std::size_t m = 0; m < kept.search.plan.paths.size(); ++m) {
     AgentTrack& track = kept.search.progress.tracks[m];
-    track.moved_m = searchers[m].kind == AgentKind::kRobot
-                        ? track.moved_m
-                        : std::min(track.moved_m, kept.search.plan.paths[m].length_m);
+    const bool simulated = searchers[m].kind == AgentKind::kPerson && searchers[m].motion == PersonMotion::kSimulated;
+    track.moved_m =
+        simulated ? std::min(track.moved_m, track.before_m + kept.search.plan.paths[m].length_m) : track.moved_m;
   }
   kept.at_s = replay.at_s();
   kept.consented = kept.consented || kept.search.started;

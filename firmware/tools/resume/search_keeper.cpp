@@ -190,14 +190,31 @@ Result<StateFile> SearchKeeper::begin_anew(const std::string& out, const std::st
                            to_bytes(kept_));
 }
 
-Result<void> SearchKeeper::keep_plan(const planner::Plan& plan, int generations, bool anew, const EventLog& log) {
-  if (plan_taken_over_ && !anew) {
+Result<void> SearchKeeper::keep_plan(const planner::Plan& plan, int generations, const LoopStatus& status,
+                                     const EventLog& log) {
+  plan_kept_ = status.plan_number;
+  plan_followed_ = false;
+  if (plan_taken_over_ && status.plan_number == 1) {
     return {};
   }
   kept_.planned = true;
   kept_.search.plan = plan;
   kept_.search.generations = generations;
-  return writer_->keep_and_wait(bytes(log, 0.0));
+  if (!status.search_started) {
+    return writer_->keep_and_wait(bytes(log, 0.0));
+  }
+  take_over(status);  // under way: where everybody is belongs to the plan that begins there
+  nobody_has_begun();
+  return writer_->keep_and_wait(bytes(log, log.time_s(status.at)));
+}
+
+// All of the plan is left, and what everybody has gone was before it.
+void SearchKeeper::nobody_has_begun() {
+  ResumedSearch& search = kept_.search;
+  search.distance_left_m = search.plan.paths[0].length_m;
+  for (AgentTrack& track : search.progress.tracks) {
+    track.before_m = track.moved_m;
+  }
 }
 
 void SearchKeeper::observe(const LoopStatus& status, const EventLog& log) {
@@ -212,6 +229,7 @@ void SearchKeeper::observe(const LoopStatus& status, const EventLog& log) {
   search_ = status.search;
   started_ = status.search_started;
   kept_at_ = status.at;
+  kept_.consented = true;
   take_over(status);
   writer_->keep(bytes(log, log.time_s(status.at)));
 }
@@ -222,6 +240,7 @@ Result<void> SearchKeeper::end(const LoopStatus& status, const EventLog& log) {
     return {};
   }
   if (kept_.planned && status.consented) {
+    kept_.consented = true;
     take_over(status);
   }
   const bool nobody_set_off = status.stop_cause == StopCause::kNoConsent && !status.search_started;
@@ -236,13 +255,23 @@ std::string SearchKeeper::bytes(const EventLog& log, double at_s) {
   return to_bytes(kept_);
 }
 
+// How far everybody has come along a plan is said of one plan at a time, and not always of the one that is kept.
 void SearchKeeper::take_over(const LoopStatus& status) {
-  kept_.consented = true;
   ResumedSearch& search = kept_.search;
+  const std::array<AgentTrack, limits::kAgents> tracks = search.progress.tracks;
   search.started = status.search_started;
   search.progress = {status.tracks, status.search_time, status.search, status.finder};
   search.robot = status.robot;
-  search.distance_left_m = status.distance_left_m;
+  if (status.way_of_plan == plan_kept_ || plan_kept_ == 0) {
+    search.distance_left_m = status.distance_left_m;
+    plan_followed_ = status.way_followed;
+  } else if (!plan_followed_) {
+    nobody_has_begun();
+  } else {
+    for (std::size_t m = 0; m < tracks.size(); ++m) {
+      search.progress.tracks[m].before_m = tracks[m].before_m;
+    }
+  }
 }
 
 }  // namespace ivo::firmware

@@ -43,9 +43,10 @@ class SearchKeeper {
   /// It, with its plan; null when there is none, or it was cut off before it had one. Changes with observe().
   [[nodiscard]] const ResumedSearch* resumed() const noexcept { return plan_taken_over_ ? &kept_.search : nullptr; }
 
-  /// Keeps the plan before anybody is asked to agree to it; one that was taken over only when it was made `anew`. Waits
+  /// Keeps the plan before anybody is asked to agree to it; one that was taken over only when it was made anew. Waits
   /// for the disk.
-  [[nodiscard]] Result<void> keep_plan(const planner::Plan& plan, int generations, bool anew, const EventLog& log);
+  [[nodiscard]] Result<void> keep_plan(const planner::Plan& plan, int generations, const LoopStatus& status,
+                                       const EventLog& log);
   /// Keeps the search once a second while it goes on, and when it comes to a turn; waits for nothing. A search that is
   /// taken up stays as it was kept until somebody agrees to go on.
   void observe(const LoopStatus& status, const EventLog& log);
@@ -65,10 +66,13 @@ class SearchKeeper {
                                              const LoggedRun& logged, EventLog& log);
   [[nodiscard]] std::string bytes(const EventLog& log, double at_s);
   void take_over(const LoopStatus& status);
+  void nobody_has_begun();
 
   KeptSearch kept_;
   bool taken_up_ = false;
   bool plan_taken_over_ = false;
+  std::uint32_t plan_kept_ = 0;  // its number
+  bool plan_followed_ = false;   // it was, when it was kept last
   Instant kept_at_{};
   Mode mode_ = Mode::kPlanning;
   SearchState search_ = SearchState::kRunning;

@@ -13,7 +13,7 @@ constexpr double kLookEveryM = 0.1;
 }  // namespace
 
 BeliefLeft::BeliefLeft(const planner::Planner& planner)
-    : cells_(planner.cells()), mass_(static_cast<std::size_t>(cells_.count())) {
+    : cells_(std::make_unique<planner::Cells>(planner.cells())), mass_(static_cast<std::size_t>(cells_->count())) {
   for (const planner::Cell cell : planner.belief().cells_with_mass()) {
     const auto i = static_cast<std::size_t>(cell);
     mass_[i] = static_cast<float>(static_cast<double>(planner.belief().mass[i]));
@@ -21,7 +21,7 @@ BeliefLeft::BeliefLeft(const planner::Planner& planner)
 }
 
 void BeliefLeft::look(Point place, double sight_radius_m) {
-  planner::for_each_seen(cells_, place, sight_radius_m,
+  planner::for_each_seen(*cells_, place, sight_radius_m,
                          [&](planner::Cell cell) { mass_[static_cast<std::size_t>(cell)] = 0.0F; });
 }
 

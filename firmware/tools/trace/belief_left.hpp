@@ -1,6 +1,7 @@
 // Where the object may still be: the prior without what the agents have looked at.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -9,10 +10,9 @@
 
 namespace ivo::firmware {
 
-/// Outside the loop, of the planner's tables alone, which do not change after prepare().
+/// Outside the loop. The cells are its own: a planner is prepared anew when people want another plan.
 class BeliefLeft {
  public:
-  /// `planner` outlives this.
   explicit BeliefLeft(const planner::Planner& planner);
 
   /// An agent is at `place`: what it sees from there is searched. Cost: its sight disc.
@@ -21,9 +21,10 @@ class BeliefLeft {
   void look_along(std::span<const Point> waypoints, double moved_m, double sight_radius_m);
   /// Of each cell, as Cells numbers them.
   [[nodiscard]] std::span<const float> mass() const noexcept { return mass_; }
+  [[nodiscard]] const planner::Cells& cells() const noexcept { return *cells_; }
 
  private:
-  const planner::Cells& cells_;
+  std::unique_ptr<const planner::Cells> cells_;
   std::vector<float> mass_;
 };
 

@@ -39,7 +39,11 @@ Result<std::unique_ptr<RunTrace>> RunTrace::open(const RunOptions& options, RunW
 
 RunTrace::RunTrace(const RunOptions& options, RunWorld& world, const MissionInputs& inputs,
                    const planner::Planner& planner)
-    : options_(options), world_(world), inputs_(inputs), planner_(planner) {}
+    : options_(options), world_(world), inputs_(inputs), planner_(planner) {
+  for (const AgentSpec& agent : inputs.file.mission.agents) {
+    sight_radii_m_.push_back(agent.sight_radius_m);
+  }
+}
 
 Result<void> RunTrace::open_files() {
   const TraceNames names = trace_words(inputs_.robot, inputs_.file.mission);
@@ -116,7 +120,7 @@ void RunTrace::look(const TraceEvent& event) {
   if (event.kind == TraceKind::kCycleEnded && loop_ns_ >= next_look_ns_) {
     next_look_ns_ = loop_ns_ + kLookEveryNs;
     if (loop_ns_ >= next_belief_ns_) {
-      next_belief_ns_ = loop_ns_ + kSecondNs * std::max<std::int64_t>(1, planner_.cells().count() / kBeliefCells);
+      next_belief_ns_ = loop_ns_ + kSecondNs * std::max<std::int64_t>(1, belief_->cells().count() / kBeliefCells);
       show_belief();
     }
     return;
@@ -124,7 +128,7 @@ void RunTrace::look(const TraceEvent& event) {
   // The poses of one cycle in so many are enough.
   if (event.kind == TraceKind::kPose && loop_ns_ >= next_look_ns_ && searching_) {
     const TracedPose pose = event.get<TracedPose>();
-    belief_->look({pose.x_m, pose.y_m}, inputs_.file.mission.agents[event.id].sight_radius_m);
+    belief_->look({pose.x_m, pose.y_m}, sight_radii_m_.at(event.id));
   }
   if (event.kind == TraceKind::kMode) {
     searching_ = searching_ || event.code == static_cast<std::uint8_t>(Mode::kSearching);
@@ -132,16 +136,15 @@ void RunTrace::look(const TraceEvent& event) {
 }
 
 void RunTrace::look_where_it_was(const ResumedSearch& resumed) {
-  const std::span<const AgentSpec> agents(inputs_.file.mission.agents);
-  for (std::size_t i = 0; i < std::min(agents.size(), resumed.plan.paths.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(sight_radii_m_.size(), resumed.plan.paths.size()); ++i) {
     belief_->look_along(resumed.plan.paths[i].waypoints.span(), resumed.progress.tracks.at(i).moved_m,
-                        agents[i].sight_radius_m);
+                        sight_radii_m_[i]);
   }
 }
 
 void RunTrace::show_belief() {
   log_->add_belief(
-      {.columns = planner_.cells().columns(), .cell_m = planner_.cells().cell_m(), .values = belief_->mass()});
+      {.columns = belief_->cells().columns(), .cell_m = belief_->cells().cell_m(), .values = belief_->mass()});
 }
 
 void RunTrace::show_plan(const planner::Plan& plan) {

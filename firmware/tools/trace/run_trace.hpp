@@ -70,6 +70,7 @@ class RunTrace {
   const RunOptions& options_;
   RunWorld& world_;
   const MissionInputs& inputs_;
+  std::vector<double> sight_radii_m_;  // of the agents; people may draw while a thread of ours looks
   const planner::Planner& planner_;
   TraceRing ring_;
   std::optional<hal::TraceMarker> marker_;
