@@ -140,6 +140,10 @@ Verdict CommandCheck::judge(std::span<const std::byte> packet, std::size_t size,
   if (const Verdict form = form_of(header, size); form != Verdict::kAccepted) {
     return form;
   }
+  ClientMessage heard;
+  if (const Verdict content = read(packet, header.kind, heard); content != Verdict::kAccepted) {
+    return content;
+  }
   // Packets of one connection are neither lost nor overtaken: whoever counts otherwise repeats or forges.
   if (header.sequence <= last_) {
     return Verdict::kReplayed;
@@ -148,10 +152,6 @@ Verdict CommandCheck::judge(std::span<const std::byte> packet, std::size_t size,
     return Verdict::kOutOfOrder;
   }
   last_ = header.sequence;
-  ClientMessage heard;
-  if (const Verdict content = read(packet, header.kind, heard); content != Verdict::kAccepted) {
-    return content;
-  }
   if (!rate_.allows(now) && !stops(header.kind)) {
     return Verdict::kTooOften;
   }

@@ -31,8 +31,8 @@ class CommandCheck {
  public:
   /// `packet`: what was read of a packet of `size` bytes. When accepted, `message` is it: every field in the range that
   /// console_messages.hpp gives it, numbers finite; whether a mission has that agent, or the map
-  /// that place, and whether an area is a simple polygon, is not looked at. A message that is refused
-  /// for its form leaves the sequence as it was, one for what it says does not: the next is heard. Cost: a copy.
+  /// that place, and whether an area is a simple polygon, is not looked at. A message that is refused leaves the
+  /// sequence as it was, but for one that came too often. Cost: a copy.
   [[nodiscard]] Verdict judge(std::span<const std::byte> packet, std::size_t size, RateLimit::Clock::time_point now,
                               ClientMessage& message) noexcept;
 

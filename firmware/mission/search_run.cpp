@@ -63,7 +63,7 @@ void SearchRun::report(int agent, Point place, Instant now) noexcept {
     return;
   }
   AgentTrack& track = tracks_[m];
-  if (plan_ != nullptr && state_ == SearchState::kRunning) {  // from the start, where it is the first report
+  if (reported_at_[m] && plan_ != nullptr && state_ == SearchState::kRunning) {
     track.moved_m += std::hypot(place.x_m - track.position.x_m, place.y_m - track.position.y_m);
   }
   track.position = place;

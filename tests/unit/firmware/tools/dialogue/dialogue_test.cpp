@@ -105,6 +105,7 @@ class DialogueTest : public testing::Test {
                                                                       .pause = [this] { loop_->request_pause(); },
                                                                       .beat = [this] { loop_->beat(); }});
     dialogue_ = std::make_unique<Dialogue>(inputs_, the_planner(), object_, *loop_, *desk_);
+    EXPECT_TRUE(dialogue_->keep_areas_at(folder_.path("areas.geojson"), false).ok());
     loop_->open(world_->clock().now());
     observe();
   }

@@ -75,7 +75,7 @@ TEST_F(DrawnAreasTest, OnlyNoGoCountsWhereNobodyAsksForPreferredOnes) {
 
 TEST_F(DrawnAreasTest, TheMissionsOwnAreDrawnAtFirst) {
   console::ConsoleDesk desk(rules_, {}, {});
-  draw(mission_, desk);
+  EXPECT_TRUE(draw(mission_, desk));
   const console::AreaBoard board = desk.areas();
   const std::vector<AgentSpec> agents = agents_with(mission_.agents, board, true, slots_);
   EXPECT_EQ(agents[1].preferred, mission_.agents[1].preferred);
@@ -84,11 +84,11 @@ TEST_F(DrawnAreasTest, TheMissionsOwnAreDrawnAtFirst) {
   EXPECT_EQ(slots_[1], (std::vector<std::uint8_t>{0}));
 }
 
-TEST_F(DrawnAreasTest, WhatHasNoRoomAtTheConsoleIsLeftOut) {
+TEST_F(DrawnAreasTest, WhatHasNoRoomAtTheConsoleIsLeftOutAndThatIsSaid) {
   mission_.agents[1].restricted.assign(60, square_at(20));
   mission_.agents[1].restricted[1] = square_at(400);  // off the map
   console::ConsoleDesk desk(rules_, {}, {});
-  draw(mission_, desk);
+  EXPECT_FALSE(draw(mission_, desk));
   const std::vector<AgentSpec> agents = agents_with(mission_.agents, desk.areas(), true, slots_);
   EXPECT_EQ(agents[1].restricted, std::vector<Polygon>(limits::kAreas, square_at(20)));
 }
