@@ -80,13 +80,14 @@ class Areas(ConsoleTest):
         screen.type("form-width", "9")
         screen.keys("form-height", Keys.ENTER)
         screen.wait_text("area-0", "9.0")
-        screen.keys("tab-areas", Keys.chord(Keys.CONTROL, "z"))
+        screen.keys("tab-areas", Keys.CONTROL, "z")
         screen.wait_text("area-0", "6.0")
         screen.keys("area-remove-0", Keys.SPACE)
         screen.wait("!document.querySelector('.area')")
         # A person's place, by the arrows.
+        before = screen.js("return document.getElementById('agent-1').getBoundingClientRect().top")
         screen.keys("agent-1", Keys.ARROW_UP)
-        screen.wait_text("agent-words-1", "66 m" if False else " m")
+        screen.wait("document.getElementById('agent-1').getBoundingClientRect().top < arguments[0] - 5", before)
 
     def test_a_border_that_crosses_itself_is_no_area(self):
         screen = self.screen("Ana's desk", "desk")
