@@ -32,44 +32,27 @@ def hostile_frames(random_):
     return b"".join(parts), len(parts)
 
 
-class Flood:
-    """Connections that send what counts for nothing until so many messages are gone; closed ones are opened again."""
+class Flood(threading.Thread):
+    """Sends what counts for nothing, on one connection that stays open."""
 
     def __init__(self, port, token, seed):
-        self.port, self.token = port, token
-        self.random = random.Random(seed)
+        super().__init__(daemon=True)
+        self.page = WebSocket(port, token=token, patience_s=None)
+        self.data, self.count = hostile_frames(random.Random(seed))
         self.sent = 0
-        self.closed = 0
+        threading.Thread(target=self.drain, daemon=True).start()
 
-    def drain(self, connection):
+    def drain(self):
         try:
-            while connection.recv(65536):
+            while self.page.socket.recv(65536):
                 pass
         except OSError:
             pass
 
-    def run(self, messages):
-        data, count = hostile_frames(self.random)
-        while self.sent < messages:
-            try:
-                page = WebSocket(self.port, token=self.token)
-            except (Refused, ConnectionError):
-                continue
-            drain = threading.Thread(target=self.drain, args=(page.socket,), daemon=True)
-            drain.start()
-            try:
-                while self.sent < messages:
-                    page.socket.sendall(data)
-                    self.sent += count
-            except OSError:
-                self.sent += count // 2
-                self.closed += 1
-            try:
-                page.socket.shutdown(socket.SHUT_RDWR)
-            except OSError:
-                pass
-            drain.join()
-            page.close()
+    def run(self):
+        while self.sent < MESSAGES // 2:
+            self.page.socket.sendall(self.data)
+            self.sent += self.count
 
 
 class Hostile(ConsoleTest):
@@ -97,22 +80,24 @@ class Hostile(ConsoleTest):
         ana.start()
         ana.wait("Number(document.getElementById('agent-progress-0').value) > 0.02")
         floods = [Flood(self.port, self.token(role, f"hostile {role}"), SEED + i) for i, role in enumerate(("operator", "viewer"))]
-        threads = [threading.Thread(target=flood.run, args=(MESSAGES // len(floods),), daemon=True) for flood in floods]
-        threads.append(threading.Thread(target=self.ask_wrongly, args=(floods[0].token,), daemon=True))
+        for flood in floods:
+            self.addCleanup(flood.page.close)
+        threads = [*floods, threading.Thread(target=self.ask_wrongly, args=(self.token("viewer"),), daemon=True)]
         for thread in threads:
             thread.start()
         shown = set()
         while any(thread.is_alive() for thread in threads):
             shown.add(ana.js("return Number(document.getElementById('agent-progress-0').value)"))
-        self.assertGreaterEqual(sum(flood.sent for flood in floods), MESSAGES)
         self.assertGreater(len(shown), 3, "the robot's way did not grow")
         ana.wait_state("searching")
         ana.press("tab-screens")
         ana.press_details()
-        # Each was judged and counted, but for what a closed connection swallowed.
+        # Each was judged and counted; a beat in order, at the beginning, is no offence.
         ana.wait("arguments[0].reduce((sum, id) => sum + parseInt(document.getElementById(id).textContent.replace(/\\D/g, '')), 0) >= arguments[1]",
                  ["refused-malformed", "refused-out_of_order", "refused-too_often", "refused-replayed", "refused-not_allowed"],
-                 0.9 * MESSAGES)
+                 MESSAGES)
+        for flood in floods:
+            flood.page.close()
         for name in ("malformed", "out_of_order", "too_often", "foreign_origin"):
             ana.wait("parseInt(document.getElementById(arguments[0]).textContent.replace(/\\D/g, '')) > 0", f"refused-{name}")
         ana.judge("refused")
