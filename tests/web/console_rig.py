@@ -44,7 +44,7 @@ class ConsoleTest(unittest.TestCase):
         self.stats = os.path.join(self.folder, "stats.json")
         self.said = []
         self.port = 0
-        self.controller = self.server = self.listener = None
+        self.controller = self.server = None
 
     def start(self, command, **options):
         process = subprocess.Popen(command, stdin=subprocess.DEVNULL, **options)
@@ -55,8 +55,8 @@ class ConsoleTest(unittest.TestCase):
         """At once; what it said is kept."""
         process.kill()
         process.wait()
-        if process is self.server:
-            self.listener.join()
+        if process.stdout:
+            process.listener.join()
             process.stdout.close()
 
     def start_controller(self, mission=None, *more, speed="1"):
@@ -73,8 +73,8 @@ class ConsoleTest(unittest.TestCase):
         """On the port that it had before, if it had one."""
         self.server = self.start([CONSOLE, "--socket", self.socket, "--port", str(self.port), "--web", PAGE, "--state", self.state], stdout=subprocess.PIPE, text=True)
         self.said = []
-        self.listener = threading.Thread(target=self.listen, args=(self.server, self.said), daemon=True)
-        self.listener.start()
+        self.server.listener = threading.Thread(target=self.listen, args=(self.server, self.said), daemon=True)
+        self.server.listener.start()
         self.port = int(self.line(r"listening at http://127\.0\.0\.1:(\d+)/")[1])
 
     def listen(self, process, said):

@@ -14,6 +14,22 @@ axe.run(document, { resultTypes: ["violations"] }).then((found) => done(found.vi
   ({ impact: each.impact, rule: each.id, where: each.nodes.map((node) => node.html.slice(0, 160) + " | " + node.failureSummary) }))),
   (fault) => done([{ impact: "critical", rule: String(fault), where: [] }]));
 """
+STILL = """
+const [name, done] = arguments;
+const end = performance.now() + 2000;
+let before = "";
+function look() {
+  const node = document.getElementById(name);
+  node.scrollIntoView({ block: "nearest" });
+  const box = node.getBoundingClientRect();
+  const middle = [box.left + box.width / 2, box.top + box.height / 2];
+  const top = document.elementFromPoint(...middle);
+  if ((String(middle) === before && (node.contains(top) || top?.contains(node))) || performance.now() > end) return done(middle);
+  before = String(middle);
+  setTimeout(look, 50);
+}
+look();
+"""
 # What a browser says when a server is gone, or when a screen is not paired yet: these a test may have caused.
 CAUSED = ("net::ERR_CONNECTION_REFUSED", "net::ERR_CONNECTION_RESET", "net::ERR_INTERNET_DISCONNECTED", "net::ERR_EMPTY_RESPONSE",
           "net::ERR_SOCKET_NOT_CONNECTED", "Unexpected response code: 403", "responded with a status of 403", "ERR_NETWORK_CHANGED", "Connection closed before",
@@ -94,9 +110,8 @@ class Screen:
         self.browser.driver.switch_to.active_element.send_keys(*keys)
 
     def middle(self, name):
-        """Of an element, brought in sight."""
-        return self.js("""const node = document.getElementById(arguments[0]); node.scrollIntoView({ block: "nearest" });
-            const box = node.getBoundingClientRect(); return [box.left + box.width / 2, box.top + box.height / 2]""", name)
+        """Of an element, brought in sight, when it lies still and nothing lies over it."""
+        return self.browser.driver.execute_async_script(STILL, name)
 
     def press(self, name):
         self.wait("document.getElementById(arguments[0]).checkVisibility() && document.getElementById(arguments[0]).ariaDisabled !== 'true'", name)
@@ -108,10 +123,11 @@ class Screen:
         while time.monotonic() < end:
             if self.js("const node = document.getElementById(arguments[0]); return node.checkVisibility() && node.ariaDisabled !== 'true'", name):
                 self.browser.tap(self.middle(name))
-            try:
-                return self.wait(condition, *values, patience_s=0.7)
-            except AssertionError:
-                pass
+            again = time.monotonic() + 0.7
+            while time.monotonic() < again:
+                if self.js(f"return {condition}", *values):
+                    return
+                time.sleep(0.05)
         raise AssertionError(f"{self.name}: {name} was pressed and {condition} did not come; it shows {self.words()}")
 
     def act(self, name, until):
@@ -137,8 +153,9 @@ class Screen:
             return [box.left + arguments[0] / 21 * box.width, box.bottom - arguments[1] / 27 * box.height]""", x_m, y_m)
 
     def start(self):
-        """From a plan that is ready to a robot that searches; who holds the controls does."""
-        self.act("accept", "document.body.dataset.act === 'hold-start'")
+        """From a plan that is ready, or was accepted already, to a robot that searches; who holds the controls does."""
+        if self.wait("['accept', 'hold-start'].find((act) => act === document.body.dataset.act)") == "accept":
+            self.act("accept", "document.body.dataset.act === 'hold-start'")
         self.hold_start()
         self.wait_stage("search")
 
@@ -149,3 +166,6 @@ class Screen:
             self.js(file.read())
         found = self.browser.driver.execute_async_script(JUDGE)
         self.test.assertEqual([each for each in found if each["impact"] in ("serious", "critical")], [], name)
+
+    def press_details(self):
+        self.js("document.getElementById('details').open = true")

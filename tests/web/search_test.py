@@ -5,7 +5,7 @@ import json
 import os
 import unittest
 
-from console_rig import ConsoleTest
+from console_rig import ConsoleTest, courtyard
 
 # What two screens must agree on.
 SHOWN = """const text = (id) => document.getElementById(id).textContent;
@@ -48,8 +48,7 @@ class WholeSearch(ConsoleTest):
         self.assertRegex(screen.text("area-0"), r"Ana prefers.*16\.0.×.9\.\d.m · 15\d.m² · \d\d.%.of probability")
         self.assertRegex(screen.text("area-1"), r"No-go for everybody.*m²")
         screen.judge("areas")
-        screen.press("replan-areas")
-        screen.wait_stage("plan")
+        screen.press_until("replan-areas", "document.body.dataset.stage === 'plan'")
         screen.wait_act("accept")
         screen.wait("!document.getElementById('facts-before').hidden && document.getElementById('fact-preferred-1')")
         screen.judge("agree")
@@ -100,6 +99,10 @@ class WholeSearch(ConsoleTest):
             report = json.load(file)
         self.assertIn(f"{report['agents'][0]['distance_m']:.1f}", ana.text("report-rows"))
 
+    def last_place(self, agent):
+        """To 10 cm: a finger is no finer."""
+        return [(round(each["x_m"], 1), round(each["y_m"], 1)) for each in self.events() if each["event"] == "position" and each["agent"] == agent][-1]
+
     def test_a_phone_and_fingers(self):
         self.begin()
         phone = self.screen("Ana's phone", "phone")
@@ -111,12 +114,36 @@ class WholeSearch(ConsoleTest):
         phone.press("tab-search")
         phone.browser.drag(phone.middle("agent-1"), phone.place(13, 6))
         phone.wait_text("agent-words-1", "seen")
-        self.assertAlmostEqual(self.until(lambda: [each for each in self.events() if "reported" in json.dumps(each)], "a position") and 0, 0)
+        self.until(lambda: self.last_place("Ana") == (13.0, 6.0), "Ana's place")
         phone.judge("searching")
         phone.act("found", "!document.getElementById('found-choice').hidden")
         phone.press("found-1")
         phone.wait_text("now-title", "Ana found the object!")
         phone.judge("found")
+
+    def test_the_robot_finds_it(self):
+        self.begin([13.0, 12.3])
+        screen = self.screen("Ana's tablet", "tablet")
+        screen.take_controls()
+        screen.start()
+        screen.wait_stage("end")
+        screen.wait_text("now-title", "IVO found the object!")
+        screen.wait_text("report-rows", "The object was at13.0")
+        screen.judge("robot-found")
+
+    def test_the_paths_end_without_it(self):
+        """Little to search, and the object elsewhere."""
+        gaussians = "{ mean_m = [10.5, 8.2], sigma_m = 0.5, weight = 1.0 },\n]"
+        mission = courtyard([14.4, 22.0])
+        begin, end = mission.index("gaussians = [") + len("gaussians = ["), mission.index("\n]\n") + 2
+        self.start_controller(mission[:begin] + gaussians + mission[end:])
+        self.start_server()
+        screen = self.screen("Ana's phone", "phone")
+        screen.take_controls()
+        screen.start()
+        screen.wait_stage("end")
+        screen.wait_text("now-title", "Both paths are at their end")
+        screen.judge("paths-ended")
 
 
 if __name__ == "__main__":

@@ -68,6 +68,11 @@ export function no_start_because(model, now_ms) {
   return null;
 }
 
+/// A person whose place is to come from outside, and has not yet: how far on the path nobody can say.
+export function is_unseen(model, agent) {
+  return agents_of(model)[agent]?.motion === "reported" && (model.status?.agents?.[agent]?.report_age_s ?? null) === null;
+}
+
 /// How far an agent has gone on the plan that is shown; null: nobody knows.
 export function done_m(model, agent) {
   const { status, documents } = model;
@@ -75,6 +80,7 @@ export function done_m(model, agent) {
   const state = status?.agents?.[agent];
   const path = plan?.agents?.[agent];
   if (!state || !path || !status.search.started || plan.number !== status.plan.number || !status.plan.ready) return null;
+  if (is_unseen(model, agent)) return null;
   if (state.path_ended) return path.length_m;
   // Nobody knows it of a person; what they have gone tells, where it leads to where they are.
   if (!(state.left_m > 0)) {

@@ -7,9 +7,10 @@ import { send } from "./socket.js";
 const kKey = "ivo.held_controls";  // of this tab, gone with it
 const kGhostMs = 2500;             // after which the server counts a lost connection as gone
 
-let asked_by = null;     // the connection that has asked already
+// Connections are told apart by their hello: a server that begins anew gives the same numbers again.
+let asked_by = null;  // the connection that has asked already
 let known_at_ms = 0;
-let known_screen = null;
+let known = null;
 
 function held() {
   try {
@@ -30,24 +31,23 @@ export function note_held(value) {
 export function regain_controls() {
   const { hello, status, link } = model;
   if (link !== "open" || hello === null || status === null) return;
-  const screen = hello.screen;
-  if (known_screen !== screen) {
-    known_screen = screen;
+  if (known !== hello) {
+    known = hello;
     known_at_ms = performance.now();
   }
   if (is_operator(model)) {
-    asked_by = screen;
+    asked_by = hello;
     note_held(true);
     return;
   }
-  if (!held() || asked_by === screen || hello.may_operate !== true) {
+  if (!held() || asked_by === hello || hello.may_operate !== true) {
     // On the same connection they were given away.
-    if (asked_by === screen && status.operator !== null) note_held(false);
+    if (asked_by === hello && status.operator !== null) note_held(false);
     return;
   }
   const ghost = status.operator !== null && status.operator.name === hello.name && !status.screens.some((each) => each.screen === status.operator.screen);
   if (status.operator !== null && !ghost) return;
   if (ghost && performance.now() - known_at_ms < kGhostMs) return;
-  asked_by = screen;
+  asked_by = hello;
   send("control.request");
 }

@@ -1,6 +1,6 @@
 // While they search: how far everybody is, who has found the object, where a person really is.
 import { can_be_placed } from "./agents.js";
-import { agents_of, done_m, stage_of } from "./judge.js";
+import { agents_of, done_m, is_unseen, stage_of } from "./judge.js";
 import { initial_of, style_of } from "./colours.js";
 import { by_id, make, on_press, set_attribute, set_text, show } from "./dom.js";
 import { model } from "./model.js";
@@ -46,7 +46,7 @@ function row_words(agent, i) {
   if (!path) return "";
   if (!model.status.search.started) return say("agent.will", { length: metres(path.length_m, 0), time: duration(path.duration_s) });
   const gone_m = done_m(model, i);
-  const parts = [state?.path_ended ? say("agent.ended") : gone_m === null ? "" : say("agent.gone", { done: number(gone_m), all: metres(path.length_m, 0) })];
+  const parts = [state?.path_ended && !is_unseen(model, i) ? say("agent.ended") : gone_m === null ? "" : say("agent.gone", { done: number(gone_m), all: metres(path.length_m, 0) })];
   if (agent.kind === "person") {
     parts.push(state?.report_age_s === null || state?.report_age_s === undefined ? say("agent.assumed") : say("agent.seen", { age: duration(state.report_age_s) }));
   }

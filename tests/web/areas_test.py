@@ -1,0 +1,120 @@
+#!/usr/bin/python3
+"""Areas: moved, resized, removed, undone, by finger and by keyboard; who watches sees them and changes nothing."""
+
+import unittest
+
+from selenium.webdriver.common.keys import Keys
+
+from console_rig import ConsoleTest
+
+RECTANGLE = {"x": 5, "y": 18, "width": 6, "height": 4}
+
+
+class Areas(ConsoleTest):
+    def setUp(self):
+        super().setUp()
+        self.begin()
+
+    def screen(self, *args, **keys):
+        screen = super().screen(*args, **keys)
+        screen.take_controls()
+        screen.wait_act("accept")
+        screen.press("tab-areas")
+        return screen
+
+    def put(self, screen, purpose="prefer-1", **box):
+        screen.press(f"purpose-{purpose}")
+        screen.press("area-numbers")
+        for name, value in {**RECTANGLE, **box}.items():
+            screen.type(f"form-{name}", str(value))
+        screen.keys("form-height", Keys.ENTER)
+
+    def box(self, screen):
+        """Of the area that is selected, as its form has it."""
+        return screen.js("return ['x', 'y', 'width', 'height'].map((name) => document.getElementById(`form-${name}`).valueAsNumber)")
+
+    def wait_box(self, screen, *box, within_m=0.15):
+        self.until(lambda: all(abs(a - b) <= within_m for a, b in zip(self.box(screen), box)), f"{box}, it is {self.box(screen)}")
+
+    def corner(self, screen, number):
+        return screen.js("""const box = document.querySelector(`.handle[data-corner="${arguments[0]}"]`).getBoundingClientRect();
+            return [box.left + box.width / 2, box.top + box.height / 2]""", number)
+
+    def moves(self, screen):
+        self.put(screen)
+        screen.wait("document.querySelector('.area[data-slot=\"0\"]') && document.querySelectorAll('.handle').length === 4")
+        self.wait_box(screen, 5, 18, 6, 4)
+        screen.browser.drag(screen.place(8, 20), screen.place(10, 21))
+        self.wait_box(screen, 7, 19, 6, 4)
+        screen.browser.drag(self.corner(screen, 2), screen.place(15, 25))
+        self.wait_box(screen, 7, 19, 8, 6)
+        screen.browser.drag(screen.place(10, 22), screen.place(25, 22))  # over the edge: it stays on the map
+        self.wait_box(screen, 13, 19, 8, 6)
+        screen.judge("edited")
+        screen.press("undo")
+        self.wait_box(screen, 7, 19, 8, 6)
+        screen.press("undo")
+        self.wait_box(screen, 7, 19, 6, 4)
+        screen.press("area-remove-0")
+        screen.wait("!document.querySelector('.area') && !document.getElementById('areas-none').hidden")
+        screen.press("undo")
+        screen.wait("document.querySelector('.area[data-slot=\"0\"]')")
+
+    def test_by_finger(self):
+        self.moves(self.screen("Ana's tablet", "tablet"))
+
+    def test_by_mouse(self):
+        self.moves(self.screen("Ana's desk", "desk"))
+
+    def test_by_keyboard_alone(self):
+        screen = self.screen("Ana's desk", "desk")
+        screen.keys("area-numbers", Keys.ENTER)
+        self.assertEqual(screen.js("return document.activeElement.id"), "form-x")
+        for name, value in {**RECTANGLE, "width": 40}.items():
+            screen.type(f"form-{name}", str(value))
+        screen.keys("form-height", Keys.ENTER)
+        screen.wait_text("toast", "That is off the map")
+        screen.type("form-width", "6")
+        screen.keys("form-height", Keys.ENTER)
+        screen.wait("document.querySelector('.area[data-slot=\"0\"]')")
+        screen.type("form-width", "9")
+        screen.keys("form-height", Keys.ENTER)
+        screen.wait_text("area-0", "9.0")
+        screen.keys("tab-areas", Keys.CONTROL, "z")
+        screen.wait_text("area-0", "6.0")
+        screen.keys("area-remove-0", Keys.SPACE)
+        screen.wait("!document.querySelector('.area')")
+        # A person's place, by the arrows.
+        before = screen.js("return document.getElementById('agent-1').getBoundingClientRect().top")
+        screen.keys("agent-1", Keys.ARROW_UP)
+        screen.wait("document.getElementById('agent-1').getBoundingClientRect().top < arguments[0] - 5", before)
+
+    def test_a_border_that_crosses_itself_is_no_area(self):
+        screen = self.screen("Ana's desk", "desk")
+        screen.press("draw-polygon")
+        screen.wait("document.body.dataset.tool === 'polygon'")
+        for place in ((5, 18), (11, 22), (11, 18), (5, 22)):
+            screen.browser.tap(screen.place(*place))
+        screen.press("draw-done")
+        screen.wait_text("toast", "crosses itself")
+        self.assertEqual(screen.js("return document.querySelectorAll('.area').length"), 0)
+        screen.keys("draw-cancel", Keys.ESCAPE)
+        screen.wait("document.body.dataset.tool === ''")
+
+    def test_who_watches_sees_them_at_once_and_changes_nothing(self):
+        ana = self.screen("Ana's desk", "desk")
+        luis = ConsoleTest.screen(self, "Luis's phone", "phone")
+        self.put(ana)
+        self.put(ana, "no_go-", x=1, y=1, width=2, height=3)
+        luis.wait("document.querySelectorAll('.area').length === 2")
+        luis.press("tab-areas")
+        luis.wait("!document.getElementById('areas-locked').hidden")
+        for name in ("draw-rectangle", "draw-polygon", "area-numbers", "undo", "area-remove-0", "replan-areas"):
+            self.assertEqual(luis.js("return document.getElementById(arguments[0]).ariaDisabled", name), "true", name)
+        luis.judge("watching-areas")
+        luis.browser.driver.refresh()
+        luis.wait("document.querySelectorAll('.area').length === 2")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,54 @@
+#!/usr/bin/python3
+"""The page's words: the same sentences in both languages, and no English on a Spanish screen."""
+
+import re
+import unittest
+
+from console_rig import ConsoleTest
+
+WORDS = """const done = arguments[0];
+Promise.all([import("/words_en.js"), import("/words_es.js")]).then(([en, es]) => done([en.words, es.words]), (fault) => done(String(fault)))"""
+# Text nodes and labels that somebody can see.
+SEEN = """const seen = [];
+const walk = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+while (walk.nextNode()) {
+  const node = walk.currentNode;
+  if (node.textContent.trim() !== "" && node.parentElement.checkVisibility() && !["SCRIPT", "NOSCRIPT"].includes(node.parentElement.tagName)) seen.push(node.textContent.trim());
+}
+for (const node of document.querySelectorAll("[aria-label]")) if (node.checkVisibility()) seen.push(node.getAttribute("aria-label"));
+return seen"""
+
+
+class Words(ConsoleTest):
+    def test_spanish(self):
+        self.begin()
+        screen = self.screen("Tableta de Ana", "tablet", language="es")
+        english, spanish = screen.browser.driver.execute_async_script(WORDS)
+        self.assertEqual(sorted(english), sorted(spanish))
+        for key, words in english.items():
+            self.assertEqual(set(re.findall(r"\{\w+\}", words)), set(re.findall(r"\{\w+\}", spanish[key])), key)
+        only_english = {words for key, words in english.items() if words not in spanish.values() and "{" not in words}
+
+        def assert_spanish(name):
+            screen.wait("document.documentElement.lang === 'es'")
+            self.assertEqual([text for text in screen.js(SEEN) if text in only_english], [], name)
+            screen.judge(f"spanish-{name}")
+
+        screen.press_until("take-control", "document.body.dataset.act === 'accept'")
+        assert_spanish("agree")
+        for tab in ("areas", "screens", "search"):
+            screen.press(f"tab-{tab}")
+            assert_spanish(tab)
+        screen.start()
+        assert_spanish("searching")
+        screen.press("language")
+        screen.wait_text("state", "IVO is searching")
+        screen.press("language")
+        screen.wait("document.documentElement.lang === 'es'")
+        screen.browser.driver.refresh()
+        screen.wait_stage("search")
+        assert_spanish("reloaded")
+
+
+if __name__ == "__main__":
+    unittest.main()
