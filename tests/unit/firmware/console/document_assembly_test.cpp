@@ -9,8 +9,7 @@ namespace {
 
 using Outcome = DocumentAssembly::Outcome;
 
-DocumentPart part_of(const std::string& whole, std::size_t from, std::size_t count,
-                              std::uint32_t revision = 1) {
+DocumentPart part_of(const std::string& whole, std::size_t from, std::size_t count, std::uint32_t revision = 1) {
   DocumentPart part;
   part.revision = revision;
   part.whole = static_cast<std::uint32_t>(whole.size());
