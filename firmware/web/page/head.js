@@ -1,6 +1,6 @@
 // The line above all: what the robot does, in words; how old that is; who holds the controls.
 import { by_id, set_attribute, set_text, show } from "./dom.js";
-import { agents_of, data_age_s, has_controller, is_old, is_operator } from "./judge.js";
+import { agents_of, data_age_s, has_controller, is_old, is_operator, is_over } from "./judge.js";
 import { state_words } from "./state_words.js";
 import { choose_language, language_names, number, other_language, say } from "./words.js";
 import { changed, model } from "./model.js";
@@ -37,7 +37,7 @@ export function show_head() {
   const old = is_old(model, now_ms);
   set_text(by_id("link-age"), model.link === "open" && !old ? say("link.now", { age: age_words(age_s) }) : say("link.old", { age: age_words(age_s) }));
   set_text(by_id("link-operator"), model.status && model.link === "open" ? operator_words() : "");
-  const stale = old && model.heard_at_ms !== null && model.link !== "unpaired";
+  const stale = old && model.heard_at_ms !== null && model.link !== "unpaired" && !is_over(model);
   set_attribute(document.body, "data-old", stale ? "yes" : "no");
   show(by_id("stale"), stale);
   if (stale) set_text(by_id("stale"), stale_words(now_ms));

@@ -18,6 +18,11 @@ export function is_old(model, now_ms) {
   return model.link !== "open" || !has_controller(model) || data_age_s(model, now_ms) > kOldAfterS;
 }
 
+/// The run has ended, and its controller with it: nothing newer will come, and nothing is wrong.
+export function is_over(model) {
+  return model.link === "open" && model.status?.finished === true && model.status.controller === "absent";
+}
+
 export function has_controller(model) {
   return model.status?.controller === "connected" || model.status?.controller === "silent";
 }

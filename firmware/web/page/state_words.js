@@ -1,6 +1,6 @@
 // What the robot does, and what somebody may do now, in words: which sentence fits the model. The sentences themselves are in
 // words_en.js and words_es.js.
-import { agents_of, is_operator, stage_of } from "./judge.js";
+import { agents_of, is_operator, is_over, stage_of } from "./judge.js";
 
 /// A key of the words, what stands in the sentence, and its tone: calm, busy, moving, warn, bad.
 export function state_words(model) {
@@ -11,6 +11,7 @@ export function state_words(model) {
   if (model.link !== "open") return words(model.heard_at_ms === null ? "connecting" : "no_server", "bad");
   if (status === null) return words("connecting", "warn");
   if (status.controller === "none") return words("none", "warn");
+  if (is_over(model)) return words(end_key(model), "calm");
   if (status.controller === "absent") return words("absent", "bad");
   if (status.controller === "silent") return words("silent", "bad");
   if (status.stop_held) return words("stop_held", "bad");
