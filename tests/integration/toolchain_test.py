@@ -60,7 +60,7 @@ class Refusals(unittest.TestCase):
         status, _, said = run(os.path.join(TOOLCHAIN, "install"), "toys")
         self.assertEqual(status, 2)
         self.assertEqual(
-            said, "toolchain/install: no packages in section 'toys'; expected one of build run test package rtsan fuzz rt picture peer cross\n")
+            said, "toolchain/install: no packages in section 'toys'; expected one of build run test package rtsan fuzz rt picture peer web cross\n")
 
     def test_the_entry_points_say_how_they_are_called(self):
         for script, argument in (("test", "--fast"), ("fresh", "walk"), ("fuzz", "--week"), ("rt", "-x")):
