@@ -18,7 +18,7 @@ from screen import Screen
 
 CONSOLE = os.path.join(BUILD_DIR, "ivo-console")
 PAGE = os.path.join(SOURCE_DIR, "firmware", "web", "page")
-PATIENCE_S = 60
+PATIENCE_S = 30
 
 
 def courtyard(object_place, motion="reported", generations=6):

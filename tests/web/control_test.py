@@ -65,7 +65,10 @@ class Control(ConsoleTest):
         self.luis.wait(YOU)
         self.ana.wait_text("link-operator", "Luis's phone holds the controls")
 
+
+class Pairing(ConsoleTest):
     def test_a_wrong_code_pairs_nobody_and_five_lock(self):
+        self.begin()
         stranger = self.screen("A stranger", "phone", paired=False)
         stranger.wait("!document.getElementById('pairing').hidden")
         stranger.judge("pairing")

@@ -7,7 +7,7 @@ import npm_packages
 from selenium.common.exceptions import JavascriptException
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-PATIENCE_S = 60
+PATIENCE_S = 30
 JUDGE = """
 const done = arguments[0];
 axe.run(document, { resultTypes: ["violations"] }).then((found) => done(found.violations.map((each) =>
