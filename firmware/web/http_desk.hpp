@@ -1,6 +1,7 @@
 // Answers every request that is no WebSocket, and says who may open one. Knows nothing of connections.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <string>
@@ -18,6 +19,7 @@ namespace ivo::firmware::web {
 struct HttpRules {
   bool tls = false;
   std::vector<std::string> origins;  ///< beyond the server's own
+  std::string machine;               ///< this machine's name
 };
 
 class HttpDesk {
@@ -32,6 +34,11 @@ class HttpDesk {
   HttpDesk(const Site& site, Hub& hub, TokenStore& tokens, PairingCode& code, HttpRules rules, Said said);
 
   [[nodiscard]] HttpAnswer answer(const HttpRequest& request, Instant now);
+  /// What is refused before its body of `announced` bytes is read; none: answer() has the answer.
+  [[nodiscard]] std::optional<HttpAnswer> refusal(const HttpRequest& request, std::size_t announced);
+  /// What is refused when it was sent to a name that is not ours; none otherwise.
+  [[nodiscard]] std::optional<HttpAnswer> foreign_host(const HttpRequest& request);
+  [[nodiscard]] HttpAnswer not_paired();
   /// Who opens a WebSocket with that request; none: nobody may.
   [[nodiscard]] std::optional<Paired> visitor(const HttpRequest& request);
   /// Of a body that the request may bring; 0: none.

@@ -24,7 +24,12 @@ class PageSession final : public Session {
   PageSession(Screen screen, const Paired& paired, Hub& hub);
 
   void hear(std::string_view message, bool binary, Instant now) override;
-  void alive(Instant /*now*/) override {}  // its beats say so, and that somebody looks at it
+  [[nodiscard]] bool fresh(std::uint32_t seen, Instant now) const noexcept override {
+    return liveness().is_new(seen, now) && liveness().beats(now);
+  }
+  // Its beats say so, and that somebody looks at it.
+  void pinged(std::uint32_t /*number*/, Instant /*now*/) override {}
+  void alive(std::uint32_t /*number*/, Instant /*now*/) override {}
   void answered(std::uint32_t number, Verdict verdict) override;
   [[nodiscard]] std::optional<Frame> next(Instant now) override;
   void written(Instant now) override;
@@ -41,6 +46,7 @@ class PageSession final : public Session {
   std::array<std::uint64_t, kLayers> layers_told_{};
   std::uint64_t status_told_ = 0;
   Instant status_at_{};
+  std::uint32_t statuses_ = 0;  // the number of the last
   bool writing_status_ = false;
 };
 

@@ -50,6 +50,9 @@ std::optional<Verdict> Requests::judge(const Asker& asker, const Request& reques
   }
   const bool holds = controls_.held_by(asker.screen);
   if (is_one_of<Beat>(request)) {
+    if (!asker.fresh) {
+      return Verdict::kNotFresh;
+    }
     // Only the operator's keep the robot moving; how often is no page's business.
     const bool passed_on = holds && there() && beats_.allows(now);
     return passed_on ? std::nullopt : std::optional(Verdict::kAccepted);

@@ -26,10 +26,10 @@ void RosConnection::hear(std::string_view message, bool binary, Instant now) {
   tell_verdicts();
 }
 
-void RosConnection::alive(Instant now) {
-  liveness().beat(now);
-  liveness().status_written(now);  // the ping that it answers came behind all that was written before
-  (void)hub_.ask(*this, 0, Beat{}, now);
+void RosConnection::alive(std::uint32_t number, Instant now) {
+  if (liveness().beat(number, now)) {
+    (void)hub_.ask(*this, 0, Beat{}, now);
+  }
 }
 
 std::uint32_t RosConnection::ask(const Request& request) {

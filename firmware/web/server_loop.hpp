@@ -6,12 +6,14 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <map>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "firmware/web/client_address.hpp"
 #include "firmware/web/connection_limits.hpp"
 #include "firmware/web/http_exchange.hpp"
 #include "firmware/web/server.hpp"
@@ -22,6 +24,9 @@ namespace ivo::firmware::web {
 class ServerLoop {
  public:
   static constexpr const char* kPageProtocol = "ivo-console";
+  /// For all that is no WebSocket: from the first byte to the whole request, and from each part of an answer to the
+  /// next.
+  static constexpr Duration kDeadline = std::chrono::seconds(30);
 
   ServerLoop(Hub& hub, HttpDesk& desk, HttpDesk::Said said) : hub_(hub), desk_(desk), said_(std::move(said)) {}
   ServerLoop(const ServerLoop&) = delete;
@@ -58,6 +63,7 @@ class ServerLoop {
   [[nodiscard]] int established(lws* connection);
   void closed(lws* connection);
   void instantiated(lws* connection);
+  void prolong(lws* connection);
 
   Hub& hub_;
   HttpDesk& desk_;
@@ -68,7 +74,11 @@ class ServerLoop {
   Turn turn_;
   bool ending_ = false;
   ConnectionLimits limits_;
-  std::map<lws*, std::string> addresses_;
+  struct Guest {
+    ClientAddress address;
+    Instant until{};  // of what is no WebSocket
+  };
+  std::map<lws*, Guest> guests_;  // all connections
   std::map<lws*, Exchange> exchanges_;
   struct Visitor {
     Paired paired;

@@ -112,6 +112,8 @@ void put_refusals(const Refusals& refusals, CompactJson& json) {
   }
   json.key("by_controller").count(refusals.by_controller());
   json.key("foreign_origin").count(refusals.foreign_origin());
+  json.key("foreign_host").count(refusals.foreign_host());
+  json.key("not_paired").count(refusals.not_paired());
   json.key("wrong_code").count(refusals.wrong_code()).close('}');
 }
 
@@ -137,8 +139,9 @@ std::string common_status(const View& view, const Desk& desk, Instant now) {
   return json.written();
 }
 
-std::string status_text(const std::string& common, bool start_fresh) {
-  return common + (start_fresh ? ",\"start_fresh\":true}" : ",\"start_fresh\":false}");
+std::string status_text(const std::string& common, bool start_fresh, std::uint32_t number) {
+  return common + (start_fresh ? ",\"start_fresh\":true" : ",\"start_fresh\":false") +
+         ",\"n\":" + std::to_string(number) + "}";
 }
 
 std::string hello_text(Screen screen, std::string_view name, bool may_operate) {

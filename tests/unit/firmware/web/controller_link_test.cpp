@@ -217,7 +217,7 @@ TEST_F(RequestsTest, AreTheOperatorsButForLookingStoppingAndSeeing) {
   EXPECT_EQ(ask(1, Stop{}), "asked");
   EXPECT_EQ(ask(1, Found{}), "asked");
   EXPECT_EQ(ask(1, Position{}), "asked");
-  EXPECT_EQ(ask(1, Beat{}), "accepted");
+  EXPECT_EQ(ask(1, Beat{}, true), "accepted");
   EXPECT_EQ(ask(1, RequestControl{}), "accepted");
   EXPECT_EQ(ask(1, Init{}), "asked");
   EXPECT_EQ(ask(1, End{}), "asked");
@@ -237,12 +237,18 @@ TEST_F(RequestsTest, PassOnTheOperatorsBeatsTenTimesASecondAtMost) {
   EXPECT_EQ(ask(1, RequestControl{}), "accepted");
   int passed_on = 0;
   for (int i = 0; i < 100; ++i) {
-    passed_on += ask(1, Beat{}) == "asked" ? 1 : 0;
-    EXPECT_EQ(ask(2, Beat{}), "accepted");
+    passed_on += ask(1, Beat{}, true) == "asked" ? 1 : 0;
+    EXPECT_EQ(ask(2, Beat{}, true), "accepted");
     now_ += 10ms;
   }
   EXPECT_GE(passed_on, 10);
   EXPECT_LE(passed_on, 20);
+}
+
+TEST_F(RequestsTest, PassOnNoBeatThatIsOld) {
+  EXPECT_EQ(ask(1, RequestControl{}), "accepted");
+  EXPECT_EQ(ask(1, Beat{}), "not_fresh");
+  EXPECT_FALSE(heard().has_value());
 }
 
 TEST_F(RequestsTest, AreSettledByTheControllersAnswer) {
