@@ -191,6 +191,24 @@ HttpAnswer HttpDesk::put_areas(const HttpRequest& request, const Paired& paired,
   return {.status = 202, .type = "", .body = nullptr, .headers = {}};
 }
 
+const HttpDesk::Made& HttpDesk::made() {
+  const View& view = hub_.view();
+  const std::array<std::uint32_t, 3> of{view.document(Document::kMission).revision,
+                                        view.document(Document::kMap).revision,
+                                        view.document(Document::kAreas).revision};
+  if (made_ && made_->of == of) {
+    return *made_;
+  }
+  std::optional<std::string> areas = areas_geojson(view);
+  std::optional<KeepoutMask> mask = keepout_of(view);
+  made_ =
+      Made{.of = of,
+           .areas = areas ? answer_of(200, std::move(*areas), "application/geo+json") : error(404, "none"),
+           .keepout_yaml = mask ? answer_of(200, std::move(mask->yaml), "application/yaml") : error(404, "none"),
+           .keepout_pgm = mask ? answer_of(200, std::move(mask->pgm), "image/x-portable-graymap") : error(404, "none")};
+  return *made_;
+}
+
 HttpAnswer HttpDesk::document(const std::string& path) {
   const View& view = hub_.view();
   for (const Served& served : kServed) {
@@ -202,16 +220,10 @@ HttpAnswer HttpDesk::document(const std::string& path) {
     }
   }
   if (path == "/areas.geojson") {
-    std::optional<std::string> text = areas_geojson(view);
-    return text ? answer_of(200, std::move(*text), "application/geo+json") : error(404, "none");
+    return made().areas;
   }
   if (path == "/keepout.yaml" || path == "/keepout.pgm") {
-    std::optional<KeepoutMask> mask = keepout_of(view);
-    if (!mask) {
-      return error(404, "none");
-    }
-    return path == "/keepout.yaml" ? answer_of(200, std::move(mask->yaml), "application/yaml")
-                                   : answer_of(200, std::move(mask->pgm), "image/x-portable-graymap");
+    return path == "/keepout.yaml" ? made().keepout_yaml : made().keepout_pgm;
   }
   return error(404, "no_such_path");
 }

@@ -1,7 +1,9 @@
 // Answers every request that is no WebSocket, and says who may open one. Knows nothing of connections.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -52,12 +54,22 @@ class HttpDesk {
   [[nodiscard]] HttpAnswer document(const std::string& path);
   [[nodiscard]] HttpAnswer screen(const HttpRequest& request) const;
 
+  /// What is made of several documents, as long as none of them changes.
+  struct Made {
+    std::array<std::uint32_t, 3> of{};  // revisions of mission, map and areas
+    HttpAnswer areas;
+    HttpAnswer keepout_yaml;
+    HttpAnswer keepout_pgm;
+  };
+  [[nodiscard]] const Made& made();
+
   const Site& site_;
   Hub& hub_;
   TokenStore& tokens_;
   PairingCode& code_;
   HttpRules rules_;
   Said said_;
+  std::optional<Made> made_;
 };
 
 }  // namespace ivo::firmware::web

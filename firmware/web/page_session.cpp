@@ -71,8 +71,10 @@ std::optional<std::string> PageSession::next_document() {
 std::optional<std::string> PageSession::next_layer(Instant now) {
   const auto& layers = hub_.layers();
   for (std::size_t i = 0; i < layers.size(); ++i) {
-    if (layers[i].number != layers_told_[i]) {
+    const bool due = !layers_told_at_[i] || now - *layers_told_at_[i] >= kLayerEvery;
+    if (due && layers[i].number != layers_told_[i]) {
       layers_told_[i] = layers[i].number;
+      layers_told_at_[i] = now;
       return layer_text(layers[i].layer, now);
     }
   }

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <optional>
+#include <string>
 
 #include "firmware/web/page_check.hpp"
 #include "firmware/web/session.hpp"
@@ -19,6 +21,7 @@ class PageSession final : public Session {
   static constexpr std::size_t kUnreadAnswers = 256;
   static constexpr std::size_t kUnreadRefusals = 64;  ///< of messages without form or order; more are only counted
   static constexpr Duration kStatusAtLeastEvery = std::chrono::milliseconds(450);
+  static constexpr Duration kLayerEvery = std::chrono::milliseconds(200);  ///< at most; each of them
 
   /// `hub` outlives this.
   PageSession(Screen screen, const Paired& paired, Hub& hub);
@@ -44,6 +47,7 @@ class PageSession final : public Session {
   std::deque<std::string> answers_;
   std::array<std::uint32_t, console::kDocuments> told_{};  // revisions
   std::array<std::uint64_t, kLayers> layers_told_{};
+  std::array<std::optional<Instant>, kLayers> layers_told_at_{};
   std::uint64_t status_told_ = 0;
   Instant status_at_{};
   std::uint32_t statuses_ = 0;  // the number of the last

@@ -48,6 +48,8 @@ std::uint32_t RosConnection::ask(const Request& request) {
 
 void RosConnection::show(const Layer& layer) { hub_.show(layer); }
 
+void RosConnection::refused(Verdict verdict) { hub_.refusals().count(verdict); }
+
 void RosConnection::answered(std::uint32_t number, Verdict verdict) { session_.answered(number, verdict); }
 
 void RosConnection::tell_verdicts() {

@@ -38,6 +38,8 @@ class RosConnection final : public Session, private RosCommands {
  private:
   std::uint32_t ask(const Request& request) override;
   void show(const Layer& layer) override;
+  [[nodiscard]] bool may_operate() const override { return paired().role == Role::kOperator; }
+  void refused(Verdict verdict) override;
   void tell_verdicts();
 
   Hub& hub_;

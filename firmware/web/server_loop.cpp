@@ -95,12 +95,12 @@ int ServerLoop::asked(lws* connection, std::string_view path) {
   exchange.request = request_of(connection, std::string(path));
   const std::size_t announced = announced_body(connection);
   if (const std::optional<HttpAnswer> refusal = desk_.refusal(exchange.request, announced)) {
-    return answer(connection, *refusal, true);
+    return refuse(connection, *refusal);
   }
   if (announced > 0) {
     return 0;  // its body comes
   }
-  return answer(connection, desk_.answer(exchange.request, now()), false);
+  return answer(connection, desk_.answer(exchange.request, now()));
 }
 
 int ServerLoop::body(lws* connection, std::string_view part) {
@@ -108,9 +108,12 @@ int ServerLoop::body(lws* connection, std::string_view part) {
   if (found == exchanges_.end()) {
     return -1;
   }
+  if (found->second.refused) {
+    return part.empty() ? -1 : 0;
+  }
   HttpRequest& request = found->second.request;
   if (part.empty()) {
-    return answer(connection, desk_.answer(request, now()), false);
+    return answer(connection, desk_.answer(request, now()));
   }
   if (request.body.size() + part.size() > HttpDesk::longest_body(request)) {
     return -1;
@@ -119,15 +122,25 @@ int ServerLoop::body(lws* connection, std::string_view part) {
   return 0;
 }
 
-int ServerLoop::answer(lws* connection, const HttpAnswer& answer, bool then_close) {
+int ServerLoop::answer(lws* connection, const HttpAnswer& answer) {
   Exchange& exchange = exchanges_[connection];
-  exchange.then_close = then_close;
-  if (!exchange.reply.begin(connection, answer, then_close)) {
+  if (!exchange.reply.begin(connection, answer, false)) {
     return -1;
   }
   if (answer.body == nullptr || answer.body->empty()) {
     exchanges_.erase(connection);
-    return then_close || lws_http_transaction_completed(connection) != 0 ? -1 : 0;
+    return lws_http_transaction_completed(connection) != 0 ? -1 : 0;
+  }
+  lws_callback_on_writable(connection);
+  return 0;
+}
+
+// Written at once, as a body may be on its way that the library would read first.
+int ServerLoop::refuse(lws* connection, const HttpAnswer& answer) {
+  Exchange& exchange = exchanges_[connection];
+  exchange.refused = true;
+  if (!exchange.reply.begin(connection, answer, true) || exchange.reply.go_on(connection) != HttpReply::State::kDone) {
+    return -1;
   }
   lws_callback_on_writable(connection);
   return 0;
@@ -138,17 +151,18 @@ int ServerLoop::answer_more(lws* connection) {
   if (found == exchanges_.end()) {
     return 0;
   }
+  if (found->second.refused) {
+    return -1;
+  }
   const HttpReply::State state = found->second.reply.go_on(connection);
   prolong(connection);
   switch (state) {
     case HttpReply::State::kMore:
       lws_callback_on_writable(connection);
       return 0;
-    case HttpReply::State::kDone: {
-      const bool then_close = found->second.then_close;
+    case HttpReply::State::kDone:
       exchanges_.erase(found);
-      return then_close || lws_http_transaction_completed(connection) != 0 ? -1 : 0;
-    }
+      return lws_http_transaction_completed(connection) != 0 ? -1 : 0;
     case HttpReply::State::kBroken:
       break;
   }

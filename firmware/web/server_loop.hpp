@@ -48,7 +48,7 @@ class ServerLoop {
   struct Exchange {
     HttpRequest request;
     HttpReply reply;
-    bool then_close = false;
+    bool refused = false;  // what comes of its body counts for nothing
   };
 
   static void on_turn(lws_sorted_usec_list_t* timer);
@@ -57,7 +57,8 @@ class ServerLoop {
   [[nodiscard]] int event(lws* connection, lws_callback_reasons reason, void* in, std::size_t size);
   [[nodiscard]] int asked(lws* connection, std::string_view path);
   [[nodiscard]] int body(lws* connection, std::string_view part);
-  [[nodiscard]] int answer(lws* connection, const HttpAnswer& answer, bool then_close);
+  [[nodiscard]] int answer(lws* connection, const HttpAnswer& answer);
+  [[nodiscard]] int refuse(lws* connection, const HttpAnswer& answer);
   [[nodiscard]] int answer_more(lws* connection);
   [[nodiscard]] int upgrade(lws* connection, std::string_view to);
   [[nodiscard]] int established(lws* connection);

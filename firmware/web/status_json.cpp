@@ -1,6 +1,7 @@
 #include "firmware/web/status_json.hpp"
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include "firmware/loop/loop_status.hpp"
@@ -117,6 +118,9 @@ void put_refusals(const Refusals& refusals, CompactJson& json) {
   json.key("wrong_code").count(refusals.wrong_code()).close('}');
 }
 
+/// To the centimetre: nobody sees more of it.
+double rounded(double length_m) { return std::round(length_m * 100.0) / 100.0; }
+
 }  // namespace
 
 std::string common_status(const View& view, const Desk& desk, Instant now) {
@@ -177,7 +181,7 @@ std::string layer_text(const Layer& layer, Instant now) {
   json.open('{').key("type").text("layer").key("name").text(word(kNames, static_cast<std::size_t>(layer.name)));
   json.key("age_s").number(seconds(now - layer.at)).key("points_m").open('[');
   for (const Point& point : layer.points) {
-    json.open('[').number(point.x_m).number(point.y_m).close(']');
+    json.open('[').number(rounded(point.x_m)).number(rounded(point.y_m)).close(']');
   }
   json.close(']');
   if (layer.name == LayerName::kRobotPose) {

@@ -15,7 +15,7 @@ import unittest
 
 import fake_controller as fake
 from web_server import PROGRAM, WebServerTest
-from websocket_client import BINARY, Refused, WebSocket, frame, request
+from websocket_client import BINARY, PONG, Refused, WebSocket, frame, request
 
 
 class Files(WebServerTest):
@@ -170,8 +170,11 @@ class Doors(WebServerTest):
         self.start("--origin", "http://tablet:8000")
         token = self.pair()
         evil = f"evil.example:{self.port}"
-        answer = request(self.port, "POST", "/pair", {"code": self.code(), "name": "x"}, host=evil, origin=f"http://{evil}")
+        code = self.code()
+        answer = request(self.port, "POST", "/pair", {"code": code, "name": "x"}, host=evil, origin=f"http://{evil}")
         self.assertEqual((answer.status, json.loads(answer.body)), (403, {"error": "foreign_host"}))
+        self.assertEqual(self.code(), code, "nobody was paired")
+        self.assertEqual(self.page(token).status()["refused"]["foreign_host"], 1)
         answer = request(self.port, "PUT", "/areas.geojson", {}, headers=[f"Cookie: ivo={token}"], host=evil, origin=f"http://{evil}")
         self.assertEqual((answer.status, json.loads(answer.body)), (403, {"error": "foreign_host"}))
         with self.assertRaises(Refused) as refusal:
@@ -383,6 +386,28 @@ class Controls(WebServerTest):
         self.fake.wait_for(fake.BEAT)
         self.assertEqual(page.ask("start", question=1, seen=old), "not_fresh", "beats come, but this one is old")
         self.assertEqual(page.ask("start", question=1), "accepted")
+
+    def test_a_ros_clients_beats_are_answers_to_the_newest_ping(self):
+        token = self.new_token("operator", "rviz")
+        ros = WebSocket(self.port, path=f"/?token={token}", protocol=None, origin=None)
+        self.addCleanup(ros.close)
+        ros.answers_pings = False
+        ros.send({"op": "subscribe", "topic": "/ivo/state"})
+        ros.send({"op": "subscribe", "topic": "/tf"})
+        ros.wait_for(lambda message: message["op"] == "publish")
+        ros.send({"op": "call_service", "service": "/ivo/take_control"})
+        self.assertTrue(ros.wait_for(lambda message: message["op"] == "service_response")["values"]["success"])
+        until = time.monotonic() + 1.5
+        while time.monotonic() < until:
+            for payload in (b"", b"\0", b"0", b"99999"):
+                ros.send_frame(payload, PONG)
+            time.sleep(0.1)
+        self.assertEqual(self.fake.messages(fake.BEAT), [])
+        ros.answers_pings = True
+        until = time.monotonic() + 10
+        while not self.fake.messages(fake.BEAT) and time.monotonic() < until:
+            ros.hear()
+        self.assertTrue(self.fake.messages(fake.BEAT))
 
     def test_what_the_controller_says_no_to_is_said_so(self):
         page = self.operator()

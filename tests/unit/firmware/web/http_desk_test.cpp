@@ -166,6 +166,29 @@ TEST_F(HttpDeskTest, ReadsABodyOnlyOfWhoMaySendIt) {
   EXPECT_FALSE(desk_.refusal(pairing(""), 60).has_value());
 }
 
+TEST_F(HttpDeskTest, MakesAreasAndMaskOnceAsLongAsNothingChanges) {
+  const std::string token = paired_token();
+  for (const char* path : {"/areas.geojson", "/keepout.pgm", "/keepout.yaml"}) {
+    HttpRequest get = request("GET", path);
+    get.token = token;
+    EXPECT_EQ(answer(get).status, 404);
+    EXPECT_EQ(answer(get).body, answer(get).body) << path;
+  }
+}
+
+TEST_F(HttpDeskTest, CountsWhatItRefuses) {
+  HttpRequest odd = pairing("");
+  odd.body = "nonsense";
+  EXPECT_EQ(answer(odd).status, 400);
+  EXPECT_EQ(answer(request("GET", "/plan.json")).status, 403);
+  HttpRequest put = request("PUT", "/areas.geojson");
+  put.origin = "http://robot:8080";
+  put.token = paired_token();
+  EXPECT_EQ(answer(put).status, 400);
+  EXPECT_EQ(hub_.refusals().of(Verdict::kMalformed), 2U);
+  EXPECT_EQ(hub_.refusals().not_paired(), 1U);
+}
+
 TEST_F(HttpDeskTest, SaysALockOnceAndNoCodeWithATry) {
   const std::string code = code_.digits();
   for (int i = 0; i < 20; ++i) {
@@ -292,6 +315,24 @@ TEST_F(HubTest, ShowsLayersToEveryPageOnce) {
   hub_.show({.name = LayerName::kScan, .at = now_, .points = {{1, 2}}, .heading_rad = 0.0});
   EXPECT_EQ(next(session), R"({"type":"layer","name":"scan","age_s":0,"points_m":[[1,2]]})");
   EXPECT_EQ(next(session), "");
+}
+
+TEST_F(HubTest, ShowsALayerFiveTimesASecondAtMostAndToTheCentimetre) {
+  Session& session = hub_.came(ana_, false, now_);
+  (void)next(session);
+  (void)next(session);
+  int scans = 0;
+  for (int i = 0; i < 100; ++i) {
+    hub_.show({.name = LayerName::kScan, .at = now_, .points = {{1.23456, -0.001}}, .heading_rad = 0.0});
+    const std::string text = next(session);
+    scans += text.starts_with(R"({"type":"layer","name":"scan")") ? 1 : 0;
+    EXPECT_TRUE(scans != 1 || text.empty() || text.find("[[1.23,0]]") != std::string::npos ||
+                text.find("[[1.23,-0]]") != std::string::npos)
+        << text;
+    now_ += 10ms;
+  }
+  EXPECT_EQ(scans, 5);
+  hub_.show({.name = LayerName::kPeople, .at = now_, .points = {}, .heading_rad = 0.0});
 }
 
 }  // namespace
