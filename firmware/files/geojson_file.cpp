@@ -38,7 +38,7 @@ void expect_word(JsonReading& reading, const Json& object, const std::string& at
   const Json* const value = object.member(key);
   if (value == nullptr || value->kind != Json::Kind::kText || value->text != word) {
     reading.fault(at + key, std::string(value == nullptr                   ? "missing"
-                                        : value->kind == Json::Kind::kText ? "\"" + value->text + "\" will not do"
+                                        : value->kind == Json::Kind::kText ? shown_text(value->text) + " will not do"
                                                                            : "is no text") +
                                 "; expected \"" + word + "\"");
   }
@@ -90,7 +90,7 @@ std::optional<std::string> agent_of(JsonReading& reading, const Json& properties
     for (const std::string& agent : agents) {
       all += (all.empty() ? "" : ", ") + agent;
     }
-    reading.fault(at + "agent", "\"" + name + "\" is unknown; expected one of " + all);
+    reading.fault(at + "agent", shown_text(name) + " is unknown; expected one of " + all);
   }
   return name;
 }

@@ -4,6 +4,18 @@
 
 namespace ivo::firmware {
 
+std::string shown_text(const std::string& text) {
+  constexpr std::size_t kMost = 200;
+  if (text.size() <= kMost) {
+    return "\"" + text + "\"";
+  }
+  std::size_t end = kMost;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) {
+    --end;  // no half of a character
+  }
+  return "\"" + text.substr(0, end) + "...\"";
+}
+
 void JsonReading::fault(const std::string& field, const std::string& what) {
   if (fault_.empty()) {
     fault_ = path_ + ": " + (field.empty() ? "" : field + ": ") + what;
@@ -64,7 +76,7 @@ std::size_t JsonReading::choice(const Json& object, const std::string& at, const
     }
     all += (i == 0 ? "\"" : i + 1 == words.size() ? "\" or \"" : "\", \"") + std::string(words[i]);
   }
-  fault(at + key, "\"" + word + "\" is unknown; expected " + all + "\"");
+  fault(at + key, shown_text(word) + " is unknown; expected " + all + "\"");
   return 0;
 }
 

@@ -43,6 +43,9 @@ class JsonReading {
   std::string fault_;
 };
 
+/// Somebody's text in a complaint: in quotation marks, at most 200 bytes of it.
+[[nodiscard]] std::string shown_text(const std::string& text);
+
 /// "agents[1]"
 [[nodiscard]] inline std::string element(const std::string& list, std::size_t i) {
   return list + "[" + std::to_string(i) + "]";

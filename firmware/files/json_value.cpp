@@ -2,7 +2,9 @@
 #include "firmware/files/json_value.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <cstddef>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -87,19 +89,46 @@ std::string lines_of(const Library& list, const std::string& indent) {
   return "[" + lines + "\n" + indent + "]";
 }
 
-// Deeper input would run the library out of stack.
+// Deeper input would run the library out of stack. It looks for a name among all of its object's: a few hundred
+// thousand names would keep it busy for hours.
 constexpr int kDeepest = 64;
+constexpr int kMostMembers = 500;
 
-bool too_deep(std::string_view text) {
-  int depth = 0;
-  for (const char c : text) {
-    depth += (c == '[' || c == '{') ? 1 : (c == ']' || c == '}') ? -1 : 0;
-    if (depth > kDeepest) {
-      return true;
+/// Reads no further than it must: what is wrong with a text that passes is the library's to say.
+class Shape {
+ public:
+  /// What is wrong; empty: nothing.
+  [[nodiscard]] std::string fault_of(std::string_view text) {
+    for (const char c : text) {
+      if (in_text_) {
+        pass_text(c);
+      } else if (c == '"') {
+        in_text_ = true;
+      } else if (c == '[' || c == '{') {
+        if (++depth_ > kDeepest) {
+          return "nested deeper than " + std::to_string(kDeepest) + " levels";
+        }
+        members_.at(static_cast<std::size_t>(depth_)) = 0;
+      } else if (c == ']' || c == '}') {
+        depth_ = std::max(depth_ - 1, 0);
+      } else if (c == ':' && ++members_.at(static_cast<std::size_t>(depth_)) > kMostMembers) {
+        return "holds an object of more than " + std::to_string(kMostMembers) + " members";
+      }
     }
+    return "";
   }
-  return false;
-}
+
+ private:
+  void pass_text(char c) {
+    in_text_ = escaped_ || c != '"';
+    escaped_ = !escaped_ && c == '\\';
+  }
+
+  int depth_ = 0;
+  std::array<int, kDeepest + 1> members_{};  // of what is open, by depth
+  bool in_text_ = false;
+  bool escaped_ = false;
+};
 
 /// `byte` is where the library gave up, counted from 1; beyond the text when it ended too early.
 Error no_json(std::string_view text, std::size_t byte, const std::string& path, const std::string& what) {
@@ -142,8 +171,8 @@ class NameWatch {
 
 Result<Json> parsed(std::string_view text, const std::string& path, const std::string& what,
                     const Library::parser_callback_t& watch) {
-  if (too_deep(text)) {
-    return Error{path + ": nested deeper than " + std::to_string(kDeepest) + " levels; expected " + what};
+  if (const std::string fault = Shape().fault_of(text); !fault.empty()) {
+    return Error{path + ": " + fault + "; expected " + what};
   }
   try {
     return value_of(Library::parse(text, watch));

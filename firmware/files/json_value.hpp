@@ -60,8 +60,8 @@ template <class Optional>
 /// what changed between two files; a list of objects an element a line. Ends with a line break.
 [[nodiscard]] std::string json_text(const Json& document);
 
-/// Refuses what is no JSON and numbers that are too large, in one line: "PATH: what was wrong; what is expected".
-/// `what` is what the file should be, for the complaint: "a plan".
+/// Refuses what is no JSON, numbers that are too large, more than 64 levels and objects of more than 500 members, in
+/// one line: "PATH: what was wrong; what is expected". `what` is what the file should be, for the complaint: "a plan".
 [[nodiscard]] Result<Json> parse_json(std::string_view text, const std::string& path, const std::string& what);
 /// Refuses two members of one name too.
 [[nodiscard]] Result<Json> parse_strict_json(std::string_view text, const std::string& path, const std::string& what);

@@ -1,5 +1,8 @@
 #include "firmware/web/console_program.hpp"
 
+#include <unistd.h>
+
+#include <array>
 #include <string>
 #include <utility>
 
@@ -15,6 +18,11 @@ std::string place_text(const Listening& listening, int port) {
   const bool six = listening.address.find(':') != std::string::npos;
   return std::string(listening.certificate.empty() ? "http://" : "https://") +
          (six ? "[" + listening.address + "]" : listening.address) + ":" + std::to_string(port) + "/";
+}
+
+std::string machine_name() {
+  std::array<char, 256> name{};
+  return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
 }
 
 }  // namespace
@@ -40,7 +48,8 @@ Result<void> run_console(const ConsoleOptions& options, const std::atomic<bool>&
   PairingCode code;
   Hub hub(options.socket, say);
   HttpDesk desk(site.value(), hub, tokens.value(), code,
-                {.tls = !options.listening.certificate.empty(), .origins = options.origins}, say);
+                {.tls = !options.listening.certificate.empty(), .origins = options.origins, .machine = machine_name()},
+                say);
   Result<Server> server = Server::listen(options.listening, hub, desk, say);
   if (!server) {
     return server.error();

@@ -56,6 +56,7 @@ void ControllerLink::connect(Instant now) {
   parts_ = {};
   came_ = {};
   known_anew_ = false;
+  out_of_step_ = false;
 }
 
 void ControllerLink::disconnect(std::string why, Instant now) {
@@ -88,6 +89,9 @@ void ControllerLink::turn(Instant now) {
       break;
     }
     view_.heard_at = now;
+    if (out_of_step_) {
+      disconnect("the controller counts otherwise than this program", now);
+    }
   }
   if (socket_.valid() && view_.status && view_.link != LinkState::kAbsent && now - view_.heard_at >= kSilence) {
     view_.link = LinkState::kSilent;
@@ -97,6 +101,8 @@ void ControllerLink::turn(Instant now) {
 bool ControllerLink::hear(std::span<const std::byte> packet) {
   if (const auto answer = message_of<console::Answer>(console::Kind::kAnswer, packet)) {
     answers_.push_back({answer->of_sequence, answer->verdict});
+    out_of_step_ = out_of_step_ || answer->verdict == console::Verdict::kOutOfOrder ||
+                   answer->verdict == console::Verdict::kReplayed;
     return true;
   }
   if (const auto status = message_of<console::Status>(console::Kind::kStatus, packet)) {

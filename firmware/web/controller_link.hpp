@@ -60,6 +60,7 @@ class ControllerLink {
   std::array<console::DocumentAssembly, console::kDocuments> parts_;
   std::array<bool, console::kDocuments> came_{};  // over this connection
   bool known_anew_ = false;                       // a status has come over this connection
+  bool out_of_step_ = false;                      // nothing that is said over it will count any more
   std::uint32_t revisions_ = 0;
   std::vector<Heard> answers_;
   std::string complaint_;

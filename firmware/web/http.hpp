@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "firmware/web/client_address.hpp"
+
 namespace ivo::firmware::web {
 
 struct HttpRequest {
@@ -18,7 +20,7 @@ struct HttpRequest {
   std::string bearer;  ///< of "Authorization: Bearer", or of ?token=
   std::string etag;    ///< of If-None-Match
   std::string body;
-  bool from_this_machine = false;
+  ClientAddress client;
 };
 
 struct HttpAnswer {

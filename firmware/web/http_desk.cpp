@@ -82,6 +82,36 @@ std::optional<Paired> HttpDesk::visitor(const HttpRequest& request) {
   return program || origin_is_ours(request) ? paired(request) : std::nullopt;
 }
 
+std::optional<HttpAnswer> HttpDesk::foreign_host(const HttpRequest& request) {
+  if (own_host(request.host, rules_.machine, rules_.origins)) {
+    return std::nullopt;
+  }
+  hub_.refusals().count_foreign_host();
+  return error(403, "foreign_host");
+}
+
+HttpAnswer HttpDesk::not_paired() {
+  hub_.refusals().count_not_paired();
+  return error(403, "not_paired");
+}
+
+std::optional<HttpAnswer> HttpDesk::refusal(const HttpRequest& request, std::size_t announced) {
+  const bool changes = request.method == "POST" || request.method == "PUT";
+  if (changes) {
+    if (std::optional<HttpAnswer> foreign = foreign_host(request)) {
+      return foreign;
+    }
+  }
+  if (announced > longest_body(request)) {
+    hub_.refusals().count(Verdict::kTooLarge);
+    return error(413, "too_large");
+  }
+  if (request.method == "PUT" && announced > 0 && !visitor(request)) {
+    return not_paired();
+  }
+  return std::nullopt;
+}
+
 HttpAnswer HttpDesk::answer(const HttpRequest& request, Instant now) {
   const bool get = request.method == "GET";
   if (get) {
@@ -102,7 +132,7 @@ HttpAnswer HttpDesk::answer(const HttpRequest& request, Instant now) {
   }
   const std::optional<Paired> who = get ? paired(request) : visitor(request);
   if (!who) {
-    return error(403, "not_paired");
+    return not_paired();
   }
   return put ? put_areas(request, *who, now) : not_stored(document(request.path));
 }
@@ -110,18 +140,29 @@ HttpAnswer HttpDesk::answer(const HttpRequest& request, Instant now) {
 HttpAnswer HttpDesk::pair(const HttpRequest& request, Instant now) {
   const std::optional<Introduction> introduction = introduction_of(request.body);
   if (!introduction) {
+    hub_.refusals().count(Verdict::kMalformed);
     return error(400, "malformed");
   }
-  const PairingCode::Outcome outcome = code_.test(introduction->code, now);
+  const PairingCode::Outcome outcome = code_.test(introduction->code, request.client, now);
   if (const auto* const wrong = std::get_if<PairingCode::Wrong>(&outcome)) {
     hub_.refusals().count_wrong_code();
-    said_("a wrong code; " + std::to_string(wrong->left) + " tries are left");
+    said_("a wrong code from " + request.client.group + "; " + std::to_string(wrong->left) + " tries are left");
     return answer_of(403, error_text("wrong_code", "left", wrong->left));
   }
   if (const auto* const locked = std::get_if<PairingCode::Locked>(&outcome)) {
     hub_.refusals().count_wrong_code();
-    said_("pairing is locked for " + std::to_string(locked->wait_s) + " s; the code is now " + code_.digits());
+    if (locked->anew) {
+      said_("pairing is locked for " + request.client.group + " for " + std::to_string(locked->wait_s) + " s");
+    }
     return answer_of(403, error_text("locked", "wait_s", locked->wait_s));
+  }
+  if (const auto* const closed = std::get_if<PairingCode::Closed>(&outcome)) {
+    hub_.refusals().count_wrong_code();
+    if (closed->anew) {
+      said_("too many wrong codes: pairing is closed but for this machine, for " + std::to_string(closed->wait_s) +
+            " s; the code is now " + code_.digits());
+    }
+    return answer_of(403, error_text("locked", "wait_s", closed->wait_s));
   }
   const Result<std::string> token = tokens_.add(introduction->name, Role::kOperator);
   if (!token) {
@@ -139,6 +180,7 @@ HttpAnswer HttpDesk::pair(const HttpRequest& request, Instant now) {
 HttpAnswer HttpDesk::put_areas(const HttpRequest& request, const Paired& paired, Instant now) {
   const Result<std::vector<Request>> requests = requests_of_geojson(request.body, hub_.view());
   if (!requests) {
+    hub_.refusals().count(Verdict::kMalformed);
     return answer_of(400, json_text(Json{{"error", "malformed"}, {"text", requests.error().message}}));
   }
   for (const Request& one : requests.value()) {
@@ -147,6 +189,24 @@ HttpAnswer HttpDesk::put_areas(const HttpRequest& request, const Paired& paired,
     }
   }
   return {.status = 202, .type = "", .body = nullptr, .headers = {}};
+}
+
+const HttpDesk::Made& HttpDesk::made() {
+  const View& view = hub_.view();
+  const std::array<std::uint32_t, 3> of{view.document(Document::kMission).revision,
+                                        view.document(Document::kMap).revision,
+                                        view.document(Document::kAreas).revision};
+  if (made_ && made_->of == of) {
+    return *made_;
+  }
+  std::optional<std::string> areas = areas_geojson(view);
+  std::optional<KeepoutMask> mask = keepout_of(view);
+  made_ =
+      Made{.of = of,
+           .areas = areas ? answer_of(200, std::move(*areas), "application/geo+json") : error(404, "none"),
+           .keepout_yaml = mask ? answer_of(200, std::move(mask->yaml), "application/yaml") : error(404, "none"),
+           .keepout_pgm = mask ? answer_of(200, std::move(mask->pgm), "image/x-portable-graymap") : error(404, "none")};
+  return *made_;
 }
 
 HttpAnswer HttpDesk::document(const std::string& path) {
@@ -160,23 +220,17 @@ HttpAnswer HttpDesk::document(const std::string& path) {
     }
   }
   if (path == "/areas.geojson") {
-    std::optional<std::string> text = areas_geojson(view);
-    return text ? answer_of(200, std::move(*text), "application/geo+json") : error(404, "none");
+    return made().areas;
   }
   if (path == "/keepout.yaml" || path == "/keepout.pgm") {
-    std::optional<KeepoutMask> mask = keepout_of(view);
-    if (!mask) {
-      return error(404, "none");
-    }
-    return path == "/keepout.yaml" ? answer_of(200, std::move(mask->yaml), "application/yaml")
-                                   : answer_of(200, std::move(mask->pgm), "image/x-portable-graymap");
+    return path == "/keepout.yaml" ? made().keepout_yaml : made().keepout_pgm;
   }
   return error(404, "no_such_path");
 }
 
 HttpAnswer HttpDesk::screen(const HttpRequest& request) const {
   // The host too: a name that a stranger's page has turned towards this machine is not this machine's.
-  if (!request.from_this_machine || !is_this_machine(request.host)) {
+  if (!request.client.this_machine || !is_this_machine(request.host)) {
     return error(403, "not_from_here");
   }
   return not_stored(

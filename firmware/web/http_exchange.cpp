@@ -89,8 +89,7 @@ HttpRequest request_of(lws* connection, std::string path) {
     request.bearer = query_token(connection);
   }
   request.etag = header(connection, WSI_TOKEN_HTTP_IF_NONE_MATCH);
-  const std::string peer = peer_of(connection);
-  request.from_this_machine = peer.starts_with("127.") || peer == "::1" || peer.starts_with("::ffff:127.");
+  request.client = client_address(lws_get_socket_fd(connection));
   return request;
 }
 
@@ -106,11 +105,6 @@ std::size_t announced_body(lws* connection) {
 }
 
 std::string subprotocol_of(lws* connection) { return header(connection, WSI_TOKEN_PROTOCOL); }
-
-std::string peer_of(lws* connection) {
-  std::array<char, 64> name{};
-  return lws_get_peer_simple(connection, name.data(), name.size()) != nullptr ? name.data() : "";
-}
 
 bool HttpReply::begin(lws* connection, const HttpAnswer& answer, bool then_close) {
   Block block;

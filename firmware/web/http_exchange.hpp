@@ -17,8 +17,6 @@ namespace ivo::firmware::web {
 [[nodiscard]] std::size_t announced_body(lws* connection);
 /// The subprotocol that a WebSocket asks for.
 [[nodiscard]] std::string subprotocol_of(lws* connection);
-/// "192.0.2.7"; empty when it is gone.
-[[nodiscard]] std::string peer_of(lws* connection);
 
 /// Writes an answer as fast as it is read.
 class HttpReply {

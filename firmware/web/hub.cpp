@@ -1,9 +1,20 @@
 #include "firmware/web/hub.hpp"
 
+#include <variant>
+
 #include "firmware/web/page_session.hpp"
 #include "firmware/web/ros_connection.hpp"
 
 namespace ivo::firmware::web {
+namespace {
+
+std::uint32_t seen_by(const Request& request) {
+  const auto* const beat = std::get_if<Beat>(&request);
+  const auto* const start = std::get_if<Start>(&request);
+  return beat != nullptr ? beat->seen : start != nullptr ? start->seen : 0;
+}
+
+}  // namespace
 
 Session& Hub::came(const Paired& paired, bool ros, Instant now) {
   controls_.turn(now);
@@ -32,7 +43,7 @@ std::optional<Verdict> Hub::ask(const Session& session, std::uint32_t number, co
   const Asker asker{.screen = session.screen(),
                     .owner = session.paired().hash,
                     .may_operate = session.paired().role == Role::kOperator,
-                    .fresh = session.liveness().fresh(now)};
+                    .fresh = session.fresh(seen_by(request), now)};
   return requests_.ask(asker, number, request, now);
 }
 

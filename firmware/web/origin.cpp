@@ -1,6 +1,9 @@
 #include "firmware/web/origin.hpp"
 
+#include <arpa/inet.h>
+
 #include <algorithm>
+#include <array>
 #include <cctype>
 
 namespace ivo::firmware::web {
@@ -25,6 +28,13 @@ std::string with_port(std::string_view host, bool tls) {
   return name.size() == host.size() ? name + (tls ? ":443" : ":80") : lower_case(host);
 }
 
+bool is_address(const std::string& name) {
+  std::array<unsigned char, sizeof(in6_addr)> room{};
+  const bool six = name.size() > 2 && name.front() == '[' && name.back() == ']';
+  return ::inet_pton(six ? AF_INET6 : AF_INET, (six ? name.substr(1, name.size() - 2) : name).c_str(), room.data()) ==
+         1;
+}
+
 }  // namespace
 
 bool same_origin(std::string_view origin, std::string_view host, bool tls, const std::vector<std::string>& others) {
@@ -35,6 +45,18 @@ bool same_origin(std::string_view origin, std::string_view host, bool tls, const
   }
   return std::any_of(others.begin(), others.end(), [&](const std::string& other) {
     return !origin.empty() && lower_case(other) == lower_case(origin);
+  });
+}
+
+bool own_host(std::string_view host, std::string_view machine, const std::vector<std::string>& others) {
+  const std::string name = without_port(host);
+  const std::string own = lower_case(machine);
+  if (name == "localhost" || is_address(name) || (!own.empty() && (name == own || name == own + ".local"))) {
+    return true;
+  }
+  return std::any_of(others.begin(), others.end(), [&](const std::string& other) {
+    const std::size_t scheme = other.find("://");
+    return !name.empty() && scheme != std::string::npos && without_port(other.substr(scheme + 3)) == name;
   });
 }
 

@@ -89,14 +89,19 @@ PutArea area_of(Keys& keys) {
 }
 
 Asked request_of(const std::string& what, Keys& keys) {
-  if (what == "beat") return Beat{};
+  if (what == "beat") return Beat{keys.count("seen")};
   if (what == "stop") return Stop{};
   if (what == "end") return End{};
   if (what == "init") return Init{};
   if (what == "replan") return Replan{keys.count("areas_revision")};
   if (what == "enough") return Enough{keys.count("plan")};
   if (what == "accept") return Accept{keys.count("plan")};
-  if (what == "start") return Start{keys.count("question")};
+  if (what == "start") {
+    Start start;
+    start.question = keys.count("question");
+    start.seen = keys.count("seen");
+    return start;
+  }
   if (what == "clear_fault") return ClearFault{keys.count("question")};
   if (what == "found") return Found{keys.byte("agent", console::kAgents - 1)};
   if (what == "position") {

@@ -23,8 +23,8 @@ void PageSession::hear(std::string_view message, bool binary, Instant now) {
     }
     return;
   }
-  if (std::holds_alternative<Beat>(heard.request)) {
-    liveness().beat(now);
+  if (const auto* const beat = std::get_if<Beat>(&heard.request)) {
+    (void)liveness().beat(beat->seen, now);
   }
   if (const std::optional<Verdict> verdict = hub_.ask(*this, heard.sequence, heard.request, now)) {
     answered(heard.sequence, *verdict);
@@ -46,7 +46,7 @@ std::optional<Frame> PageSession::next(Instant now) {
     status_told_ = status.number;
     status_at_ = now;
     writing_status_ = true;
-    return Frame{.bytes = status_text(status.common, liveness().fresh(now)), .binary = false};
+    return Frame{.bytes = status_text(status.common, liveness().beats(now), ++statuses_), .binary = false};
   }
   std::optional<std::string> more = next_document();
   if (!more) {
@@ -71,8 +71,10 @@ std::optional<std::string> PageSession::next_document() {
 std::optional<std::string> PageSession::next_layer(Instant now) {
   const auto& layers = hub_.layers();
   for (std::size_t i = 0; i < layers.size(); ++i) {
-    if (layers[i].number != layers_told_[i]) {
+    const bool due = !layers_told_at_[i] || now - *layers_told_at_[i] >= kLayerEvery;
+    if (due && layers[i].number != layers_told_[i]) {
       layers_told_[i] = layers[i].number;
+      layers_told_at_[i] = now;
       return layer_text(layers[i].layer, now);
     }
   }
@@ -81,7 +83,7 @@ std::optional<std::string> PageSession::next_layer(Instant now) {
 
 void PageSession::written(Instant now) {
   if (writing_status_) {
-    liveness().status_written(now);
+    liveness().told(statuses_, now);
   }
 }
 

@@ -11,7 +11,10 @@
 
 namespace ivo::firmware::web {
 
-struct Beat {};
+/// `seen`: the number of the newest status that its screen has drawn; 0 of what has no screen.
+struct Beat {
+  std::uint32_t seen = 0;
+};
 struct Stop {};  ///< the robot stands until consent anew
 struct End {};   ///< the run ends
 struct Init {};
@@ -26,6 +29,7 @@ struct Accept {
 };
 struct Start {
   std::uint32_t question = 0;
+  std::uint32_t seen = 0;  ///< as of a Beat
 };
 struct ClearFault {
   std::uint32_t question = 0;

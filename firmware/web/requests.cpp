@@ -1,6 +1,11 @@
 #include "firmware/web/requests.hpp"
 
+#include <span>
+#include <string>
 #include <variant>
+
+#include "firmware/console/command_check.hpp"
+#include "firmware/web/controller_message.hpp"
 
 namespace ivo::firmware::web {
 namespace {
@@ -17,6 +22,16 @@ bool is_control(const Request& request) {
 /// Whatever else than looking, stopping and saying what one sees.
 bool needs_controls(const Request& request) {
   return !is_one_of<Beat, Stop, Found, Position>(request) && !is_control(request);
+}
+
+/// The controller's own, so that it need not refuse it; none: it will not for that.
+std::optional<Verdict> verdict_of_content(const Request& request) {
+  const std::optional<std::string> packet = controller_message(request, 1);
+  console::CommandCheck check;
+  console::ClientMessage message;
+  const console::Verdict verdict = packet ? check.judge(std::as_bytes(std::span(*packet)), packet->size(), {}, message)
+                                          : console::Verdict::kAccepted;
+  return verdict == console::Verdict::kAccepted ? std::nullopt : std::optional(verdict_of(verdict));
 }
 
 }  // namespace
@@ -50,6 +65,9 @@ std::optional<Verdict> Requests::judge(const Asker& asker, const Request& reques
   }
   const bool holds = controls_.held_by(asker.screen);
   if (is_one_of<Beat>(request)) {
+    if (!asker.fresh) {
+      return Verdict::kNotFresh;
+    }
     // Only the operator's keep the robot moving; how often is no page's business.
     const bool passed_on = holds && there() && beats_.allows(now);
     return passed_on ? std::nullopt : std::optional(Verdict::kAccepted);
@@ -60,7 +78,10 @@ std::optional<Verdict> Requests::judge(const Asker& asker, const Request& reques
   if (is_one_of<Start>(request) && !asker.fresh) {
     return Verdict::kNotFresh;
   }
-  return std::nullopt;
+  if (is_one_of<Found, Position>(request) && !(asker.may_operate && holds) && !others_.allows(now)) {
+    return Verdict::kTooOften;
+  }
+  return verdict_of_content(request);
 }
 
 Verdict Requests::control(const Asker& asker, const Request& request, Instant now) {

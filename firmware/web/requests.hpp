@@ -36,6 +36,9 @@ class Requests {
  public:
   static constexpr Duration kPatience = std::chrono::seconds(3);  ///< with the controller's answer
   static constexpr int kBeatsPerSecond = 10;
+  /// Of what those without the controls may say of places and finds, all together: the controller hears a hundred
+  /// messages a second, and the operator's are among them.
+  static constexpr int kOthersPerSecond = 60;
 
   /// They outlive this.
   Requests(ControllerLink& link, Controls& controls, Refusals& refusals)
@@ -62,6 +65,7 @@ class Requests {
   Controls& controls_;
   Refusals& refusals_;
   RateLimit beats_{kBeatsPerSecond};
+  RateLimit others_{kOthersPerSecond};
   std::map<std::uint32_t, Pending> pending_;  // by the controller's number
 };
 

@@ -26,10 +26,10 @@ void RosConnection::hear(std::string_view message, bool binary, Instant now) {
   tell_verdicts();
 }
 
-void RosConnection::alive(Instant now) {
-  liveness().beat(now);
-  liveness().status_written(now);  // the ping that it answers came behind all that was written before
-  (void)hub_.ask(*this, 0, Beat{}, now);
+void RosConnection::alive(std::uint32_t number, Instant now) {
+  if (liveness().beat(number, now)) {
+    (void)hub_.ask(*this, 0, Beat{}, now);
+  }
 }
 
 std::uint32_t RosConnection::ask(const Request& request) {
@@ -47,6 +47,8 @@ std::uint32_t RosConnection::ask(const Request& request) {
 }
 
 void RosConnection::show(const Layer& layer) { hub_.show(layer); }
+
+void RosConnection::refused(Verdict verdict) { hub_.refusals().count(verdict); }
 
 void RosConnection::answered(std::uint32_t number, Verdict verdict) { session_.answered(number, verdict); }
 

@@ -24,8 +24,12 @@ class RosConnection final : public Session, private RosCommands {
   RosConnection(Screen screen, const Paired& paired, Hub& hub);
 
   void hear(std::string_view message, bool binary, Instant now) override;
+  [[nodiscard]] bool fresh(std::uint32_t /*seen*/, Instant now) const noexcept override {
+    return liveness().beats(now);
+  }
+  void pinged(std::uint32_t number, Instant now) override { liveness().told(number, now); }
   /// It has no beats of its own: that it answers pings counts for them.
-  void alive(Instant now) override;
+  void alive(std::uint32_t number, Instant now) override;
   void answered(std::uint32_t number, Verdict verdict) override;
   [[nodiscard]] std::optional<Frame> next(Instant now) override;
   void written(Instant now) override;
@@ -34,6 +38,8 @@ class RosConnection final : public Session, private RosCommands {
  private:
   std::uint32_t ask(const Request& request) override;
   void show(const Layer& layer) override;
+  [[nodiscard]] bool may_operate() const override { return paired().role == Role::kOperator; }
+  void refused(Verdict verdict) override;
   void tell_verdicts();
 
   Hub& hub_;

@@ -83,6 +83,11 @@ void ServerLoop::on_turn(lws_sorted_usec_list_t* timer) {
 void ServerLoop::turn() {
   const Instant at = now();
   hub_.turn(at);
+  for (const auto& [connection, guest] : guests_) {
+    if (at >= guest.until && !sockets_.contains(connection)) {
+      lws_set_timeout(connection, PENDING_TIMEOUT_USER_REASON_BASE, LWS_TO_KILL_ASYNC);
+    }
+  }
   for (auto& [connection, socket] : sockets_) {
     if (ending_) {
       lws_callback_on_writable(connection);

@@ -1,6 +1,5 @@
 #include "firmware/web/server_loop.hpp"
 
-#include <netdb.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <sys/socket.h>
@@ -20,21 +19,13 @@ void keep_little_unsent(int socket) {
   (void)::setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &at_once, sizeof(at_once));
 }
 
-std::string address_text(const sockaddr_storage& address) {
-  std::array<char, 64> name{};
-  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): how the system calls want it
-  const int failed = ::getnameinfo(reinterpret_cast<const sockaddr*>(&address), sizeof(address), name.data(),
-                                   name.size(), nullptr, 0, NI_NUMERICHOST);
-  return failed == 0 ? name.data() : "";
-}
-
 }  // namespace
 
 int ServerLoop::on_event(lws* connection, lws_callback_reasons reason, void* user, void* in, size_t size) {
   lws_context* const context = connection != nullptr ? lws_get_context(connection) : nullptr;
   auto* const loop = context != nullptr ? static_cast<ServerLoop*>(lws_context_user(context)) : nullptr;
   if (loop != nullptr && reason == LWS_CALLBACK_FILTER_NETWORK_CONNECTION) {
-    return loop->limits_.allows(address_text(static_cast<lws_filter_network_conn_args*>(user)->cli_addr)) ? 0 : -1;
+    return loop->limits_.allows(client_address(static_cast<lws_filter_network_conn_args*>(user)->cli_addr)) ? 0 : -1;
   }
   return loop != nullptr ? loop->event(connection, reason, in, size) : 0;
 }
@@ -56,6 +47,9 @@ int ServerLoop::event(lws* connection, lws_callback_reasons reason, void* in, st
       return upgrade(connection, in != nullptr ? static_cast<const char*>(in) : "");
     case LWS_CALLBACK_ESTABLISHED:
       return established(connection);
+    case LWS_CALLBACK_RAW_ADOPT:  // what is no HTTP: CONNECT, and whatever else the library would leave as it is
+    case LWS_CALLBACK_RAW_RX:
+      return -1;
     case LWS_CALLBACK_CLOSED:
     case LWS_CALLBACK_WSI_DESTROY:
       closed(connection);
@@ -74,18 +68,25 @@ int ServerLoop::event(lws* connection, lws_callback_reasons reason, void* in, st
     return -1;
   }
   const bool goes_on = reason == LWS_CALLBACK_RECEIVE            ? socket.received(text, at)
-                       : reason == LWS_CALLBACK_RECEIVE_PONG     ? socket.pong(at)
+                       : reason == LWS_CALLBACK_RECEIVE_PONG     ? socket.pong(text, at)
                        : reason == LWS_CALLBACK_SERVER_WRITEABLE ? socket.writable(at)
                                                                  : true;
   return goes_on ? 0 : -1;
 }
 
 void ServerLoop::instantiated(lws* connection) {
-  const std::string address = peer_of(connection);
-  if (addresses_.emplace(connection, address).second) {
-    limits_.opened(address);
+  const int socket = lws_get_socket_fd(connection);
+  const Guest guest{.address = client_address(socket), .until = now() + kDeadline};
+  if (guests_.emplace(connection, guest).second) {
+    limits_.opened(guest.address);
   }
-  keep_little_unsent(lws_get_socket_fd(connection));
+  keep_little_unsent(socket);
+}
+
+void ServerLoop::prolong(lws* connection) {
+  if (const auto found = guests_.find(connection); found != guests_.end()) {
+    found->second.until = now() + kDeadline;
+  }
 }
 
 int ServerLoop::asked(lws* connection, std::string_view path) {
@@ -93,14 +94,13 @@ int ServerLoop::asked(lws* connection, std::string_view path) {
   exchange = {};
   exchange.request = request_of(connection, std::string(path));
   const std::size_t announced = announced_body(connection);
-  const std::size_t most = HttpDesk::longest_body(exchange.request);
-  if (announced > most) {
-    return answer(connection, answer_of(413, "{\"error\":\"too_large\"}"), true);
+  if (const std::optional<HttpAnswer> refusal = desk_.refusal(exchange.request, announced)) {
+    return refuse(connection, *refusal);
   }
   if (announced > 0) {
     return 0;  // its body comes
   }
-  return answer(connection, desk_.answer(exchange.request, now()), false);
+  return answer(connection, desk_.answer(exchange.request, now()));
 }
 
 int ServerLoop::body(lws* connection, std::string_view part) {
@@ -108,9 +108,12 @@ int ServerLoop::body(lws* connection, std::string_view part) {
   if (found == exchanges_.end()) {
     return -1;
   }
+  if (found->second.refused) {
+    return part.empty() ? -1 : 0;
+  }
   HttpRequest& request = found->second.request;
   if (part.empty()) {
-    return answer(connection, desk_.answer(request, now()), false);
+    return answer(connection, desk_.answer(request, now()));
   }
   if (request.body.size() + part.size() > HttpDesk::longest_body(request)) {
     return -1;
@@ -119,15 +122,25 @@ int ServerLoop::body(lws* connection, std::string_view part) {
   return 0;
 }
 
-int ServerLoop::answer(lws* connection, const HttpAnswer& answer, bool then_close) {
+int ServerLoop::answer(lws* connection, const HttpAnswer& answer) {
   Exchange& exchange = exchanges_[connection];
-  exchange.then_close = then_close;
-  if (!exchange.reply.begin(connection, answer, then_close)) {
+  if (!exchange.reply.begin(connection, answer, false)) {
     return -1;
   }
   if (answer.body == nullptr || answer.body->empty()) {
     exchanges_.erase(connection);
-    return then_close || lws_http_transaction_completed(connection) != 0 ? -1 : 0;
+    return lws_http_transaction_completed(connection) != 0 ? -1 : 0;
+  }
+  lws_callback_on_writable(connection);
+  return 0;
+}
+
+// Written at once, as a body may be on its way that the library would read first.
+int ServerLoop::refuse(lws* connection, const HttpAnswer& answer) {
+  Exchange& exchange = exchanges_[connection];
+  exchange.refused = true;
+  if (!exchange.reply.begin(connection, answer, true) || exchange.reply.go_on(connection) != HttpReply::State::kDone) {
+    return -1;
   }
   lws_callback_on_writable(connection);
   return 0;
@@ -138,15 +151,18 @@ int ServerLoop::answer_more(lws* connection) {
   if (found == exchanges_.end()) {
     return 0;
   }
-  switch (found->second.reply.go_on(connection)) {
+  if (found->second.refused) {
+    return -1;
+  }
+  const HttpReply::State state = found->second.reply.go_on(connection);
+  prolong(connection);
+  switch (state) {
     case HttpReply::State::kMore:
       lws_callback_on_writable(connection);
       return 0;
-    case HttpReply::State::kDone: {
-      const bool then_close = found->second.then_close;
+    case HttpReply::State::kDone:
       exchanges_.erase(found);
-      return then_close || lws_http_transaction_completed(connection) != 0 ? -1 : 0;
-    }
+      return lws_http_transaction_completed(connection) != 0 ? -1 : 0;
     case HttpReply::State::kBroken:
       break;
   }
@@ -163,13 +179,14 @@ int ServerLoop::upgrade(lws* connection, std::string_view to) {
   }
   const HttpRequest request = request_of(connection, path.data());
   const bool page = request.path == kPagePath && subprotocol_of(connection) == kPageProtocol;
-  const std::optional<Paired> paired = desk_.visitor(request);
+  const std::optional<HttpAnswer> foreign = desk_.foreign_host(request);
+  const std::optional<Paired> paired = foreign ? std::nullopt : desk_.visitor(request);
   if (paired) {
     visitors_[connection] = {.paired = *paired, .ros = !page};
     return 0;
   }
   HttpReply reply;
-  if (!reply.begin(connection, answer_of(403, "{\"error\":\"not_paired\"}"), true) ||
+  if (!reply.begin(connection, foreign ? *foreign : desk_.not_paired(), true) ||
       reply.go_on(connection) != HttpReply::State::kDone) {
     return -1;
   }
@@ -202,9 +219,9 @@ void ServerLoop::closed(lws* connection) {
   }
   exchanges_.erase(connection);
   visitors_.erase(connection);
-  if (const auto found = addresses_.find(connection); found != addresses_.end()) {
-    limits_.closed(found->second);
-    addresses_.erase(found);
+  if (const auto found = guests_.find(connection); found != guests_.end()) {
+    limits_.closed(found->second.address);
+    guests_.erase(found);
   }
 }
 

@@ -6,12 +6,14 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <map>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "firmware/web/client_address.hpp"
 #include "firmware/web/connection_limits.hpp"
 #include "firmware/web/http_exchange.hpp"
 #include "firmware/web/server.hpp"
@@ -22,6 +24,9 @@ namespace ivo::firmware::web {
 class ServerLoop {
  public:
   static constexpr const char* kPageProtocol = "ivo-console";
+  /// For all that is no WebSocket: from the first byte to the whole request, and from each part of an answer to the
+  /// next.
+  static constexpr Duration kDeadline = std::chrono::seconds(30);
 
   ServerLoop(Hub& hub, HttpDesk& desk, HttpDesk::Said said) : hub_(hub), desk_(desk), said_(std::move(said)) {}
   ServerLoop(const ServerLoop&) = delete;
@@ -43,7 +48,7 @@ class ServerLoop {
   struct Exchange {
     HttpRequest request;
     HttpReply reply;
-    bool then_close = false;
+    bool refused = false;  // what comes of its body counts for nothing
   };
 
   static void on_turn(lws_sorted_usec_list_t* timer);
@@ -52,12 +57,14 @@ class ServerLoop {
   [[nodiscard]] int event(lws* connection, lws_callback_reasons reason, void* in, std::size_t size);
   [[nodiscard]] int asked(lws* connection, std::string_view path);
   [[nodiscard]] int body(lws* connection, std::string_view part);
-  [[nodiscard]] int answer(lws* connection, const HttpAnswer& answer, bool then_close);
+  [[nodiscard]] int answer(lws* connection, const HttpAnswer& answer);
+  [[nodiscard]] int refuse(lws* connection, const HttpAnswer& answer);
   [[nodiscard]] int answer_more(lws* connection);
   [[nodiscard]] int upgrade(lws* connection, std::string_view to);
   [[nodiscard]] int established(lws* connection);
   void closed(lws* connection);
   void instantiated(lws* connection);
+  void prolong(lws* connection);
 
   Hub& hub_;
   HttpDesk& desk_;
@@ -68,7 +75,11 @@ class ServerLoop {
   Turn turn_;
   bool ending_ = false;
   ConnectionLimits limits_;
-  std::map<lws*, std::string> addresses_;
+  struct Guest {
+    ClientAddress address;
+    Instant until{};  // of what is no WebSocket
+  };
+  std::map<lws*, Guest> guests_;  // all connections
   std::map<lws*, Exchange> exchanges_;
   struct Visitor {
     Paired paired;

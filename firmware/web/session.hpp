@@ -28,9 +28,14 @@ class Session {
   [[nodiscard]] Liveness& liveness() noexcept { return liveness_; }
   [[nodiscard]] const Liveness& liveness() const noexcept { return liveness_; }
 
+  /// Did what it says now, having heard of `seen`, set out within the last second, and is it there?
+  [[nodiscard]] virtual bool fresh(std::uint32_t seen, Instant now) const noexcept = 0;
+
   virtual void hear(std::string_view message, bool binary, Instant now) = 0;
-  /// It has answered a ping.
-  virtual void alive(Instant now) = 0;
+  /// A ping has been written to its last byte.
+  virtual void pinged(std::uint32_t number, Instant now) = 0;
+  /// It has answered the newest ping.
+  virtual void alive(std::uint32_t number, Instant now) = 0;
   virtual void answered(std::uint32_t number, Verdict verdict) = 0;
   /// What is to be written next, when the connection takes more.
   [[nodiscard]] virtual std::optional<Frame> next(Instant now) = 0;

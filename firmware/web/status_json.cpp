@@ -1,6 +1,7 @@
 #include "firmware/web/status_json.hpp"
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include "firmware/loop/loop_status.hpp"
@@ -112,8 +113,13 @@ void put_refusals(const Refusals& refusals, CompactJson& json) {
   }
   json.key("by_controller").count(refusals.by_controller());
   json.key("foreign_origin").count(refusals.foreign_origin());
+  json.key("foreign_host").count(refusals.foreign_host());
+  json.key("not_paired").count(refusals.not_paired());
   json.key("wrong_code").count(refusals.wrong_code()).close('}');
 }
+
+/// To the centimetre: nobody sees more of it.
+double rounded(double length_m) { return std::round(length_m * 100.0) / 100.0; }
 
 }  // namespace
 
@@ -137,8 +143,9 @@ std::string common_status(const View& view, const Desk& desk, Instant now) {
   return json.written();
 }
 
-std::string status_text(const std::string& common, bool start_fresh) {
-  return common + (start_fresh ? ",\"start_fresh\":true}" : ",\"start_fresh\":false}");
+std::string status_text(const std::string& common, bool start_fresh, std::uint32_t number) {
+  return common + (start_fresh ? ",\"start_fresh\":true" : ",\"start_fresh\":false") +
+         ",\"n\":" + std::to_string(number) + "}";
 }
 
 std::string hello_text(Screen screen, std::string_view name, bool may_operate) {
@@ -174,7 +181,7 @@ std::string layer_text(const Layer& layer, Instant now) {
   json.open('{').key("type").text("layer").key("name").text(word(kNames, static_cast<std::size_t>(layer.name)));
   json.key("age_s").number(seconds(now - layer.at)).key("points_m").open('[');
   for (const Point& point : layer.points) {
-    json.open('[').number(point.x_m).number(point.y_m).close(']');
+    json.open('[').number(rounded(point.x_m)).number(rounded(point.y_m)).close(']');
   }
   json.close(']');
   if (layer.name == LayerName::kRobotPose) {

@@ -30,9 +30,9 @@ struct Desk {
   Refusals refusals;
 };
 
-/// Without its last member: that is each screen's own, and status_text() adds it.
+/// Without its last members: these are each screen's own, and status_text() adds them.
 [[nodiscard]] std::string common_status(const View& view, const Desk& desk, Instant now);
-[[nodiscard]] std::string status_text(const std::string& common, bool start_fresh);
+[[nodiscard]] std::string status_text(const std::string& common, bool start_fresh, std::uint32_t number);
 
 [[nodiscard]] std::string hello_text(Screen screen, std::string_view name, bool may_operate);
 [[nodiscard]] std::string answer_text(std::uint32_t sequence, Verdict verdict);

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "firmware/web/page_message.hpp"
@@ -12,6 +15,7 @@
 namespace ivo::firmware::web {
 namespace {
 
+constexpr std::size_t kKeptBytes = 64U << 10U;  // of room for the next message
 constexpr Duration kPingEvery = std::chrono::seconds(1);
 constexpr Duration kPingRosEvery = std::chrono::milliseconds(500);  // its answers are an operator's beats
 
@@ -35,28 +39,58 @@ bool WebSocket::received(std::string_view part, Instant now) {
   if (lws_is_final_fragment(connection_) != 0) {
     session_.hear(message_, lws_frame_is_binary(connection_) != 0, now);
     message_.clear();
+    if (message_.capacity() > kKeptBytes) {
+      message_.shrink_to_fit();
+    }
     too_long_ = false;
   }
   return true;
 }
 
-bool WebSocket::pong(Instant now) {
+bool WebSocket::pong(std::string_view payload, Instant now) {
   heard_at_ = now;
-  session_.alive(now);
+  if (payload == std::to_string(pings_)) {
+    session_.alive(pings_, now);
+  }
   return true;
+}
+
+bool WebSocket::ping(Instant now) {
+  pinged_at_ = now;
+  const std::string number = std::to_string(++pings_);
+  std::array<unsigned char, LWS_PRE + 16> bytes{};
+  std::copy(number.begin(), number.end(), bytes.begin() + LWS_PRE);
+  if (lws_write(connection_, bytes.data() + LWS_PRE, number.size(), LWS_WRITE_PING) < 0) {
+    return false;
+  }
+  pinging_ = true;
+  partly_written_ = lws_partial_buffered(connection_) != 0;
+  if (!partly_written_) {
+    written(now);
+  }
+  return true;
+}
+
+void WebSocket::written(Instant now) {
+  partly_written_ = false;
+  if (std::exchange(pinging_, false)) {
+    session_.pinged(pings_, now);
+  } else {
+    session_.written(now);
+  }
 }
 
 bool WebSocket::write(const Frame& frame, Instant now) {
   std::vector<unsigned char> bytes(LWS_PRE + frame.bytes.size());
   std::copy(frame.bytes.begin(), frame.bytes.end(), bytes.begin() + LWS_PRE);
-  const int written = lws_write(connection_, bytes.data() + LWS_PRE, frame.bytes.size(),
-                                frame.binary ? LWS_WRITE_BINARY : LWS_WRITE_TEXT);
-  if (written < static_cast<int>(frame.bytes.size())) {
+  const int count = lws_write(connection_, bytes.data() + LWS_PRE, frame.bytes.size(),
+                              frame.binary ? LWS_WRITE_BINARY : LWS_WRITE_TEXT);
+  if (count < static_cast<int>(frame.bytes.size())) {
     return false;
   }
   partly_written_ = lws_partial_buffered(connection_) != 0;
   if (!partly_written_) {
-    session_.written(now);
+    written(now);
   }
   return true;
 }
@@ -64,14 +98,10 @@ bool WebSocket::write(const Frame& frame, Instant now) {
 bool WebSocket::writable(Instant now) {
   asked_to_write_ = false;
   if (partly_written_) {
-    partly_written_ = false;
-    session_.written(now);
+    written(now);
   }
   if (now - pinged_at_ >= (ros_ ? kPingRosEvery : kPingEvery)) {
-    pinged_at_ = now;
-    // Not empty: of an answer that is, the library says nothing.
-    std::array<unsigned char, LWS_PRE + 1> ping{};
-    return lws_write(connection_, ping.data() + LWS_PRE, 1, LWS_WRITE_PING) >= 0;
+    return ping(now);
   }
   const std::optional<Frame> frame = session_.next(now);
   if (!frame) {

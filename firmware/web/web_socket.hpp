@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -26,7 +27,7 @@ class WebSocket {
 
   // Each of these says false when the connection is to be closed.
   [[nodiscard]] bool received(std::string_view part, Instant now);
-  [[nodiscard]] bool pong(Instant now);
+  [[nodiscard]] bool pong(std::string_view payload, Instant now);
   [[nodiscard]] bool writable(Instant now);
   /// Every few milliseconds.
   [[nodiscard]] bool turn(Instant now);
@@ -36,6 +37,8 @@ class WebSocket {
 
  private:
   [[nodiscard]] bool write(const Frame& frame, Instant now);
+  [[nodiscard]] bool ping(Instant now);
+  void written(Instant now);
 
   lws* connection_;
   Session& session_;
@@ -44,6 +47,8 @@ class WebSocket {
   bool too_long_ = false;
   Instant heard_at_;
   Instant pinged_at_;
+  std::uint32_t pings_ = 0;  // the number of the last
+  bool pinging_ = false;     // it is partly written
   bool asked_to_write_ = false;
   Instant asked_to_write_at_{};
   bool partly_written_ = false;

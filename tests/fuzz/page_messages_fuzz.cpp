@@ -15,10 +15,10 @@ using ivo::fuzz::require;
 /// Any bytes, or a message of which nothing or one byte is wrong.
 std::string message(ivo::fuzz::Input& input, std::uint32_t next) {
   static constexpr const char* kRests[] = {
-      R"("do":"beat"})",
+      R"("do":"beat","seen":1})",
       R"("do":"stop"})",
       R"("do":"replan","areas_revision":7})",
-      R"("do":"start","question":1})",
+      R"("do":"start","question":1,"seen":1})",
       R"("do":"position","agent":1,"x_m":1.5,"y_m":2})",
       R"("do":"area.put","slot":3,"purpose":"no_go","agent":null,"polygon_m":[[0,0],[1,0],[1,1]]})",
       R"("do":"area.remove","slot":3})",

@@ -72,6 +72,8 @@ struct JudgedCommands final : RosCommands {
       require(finite(p), "its points are somewhere");
     }
   }
+  [[nodiscard]] bool may_operate() const override { return true; }
+  void refused(Verdict verdict) override { require(verdict != Verdict::kAccepted, "what is refused is not accepted"); }
   std::uint32_t asked = 0;
 };
 

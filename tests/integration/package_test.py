@@ -308,6 +308,12 @@ class Packages(unittest.TestCase):
             self.assertIn(option, known)
         self.assertNotIn("--yes", command)
 
+    def test_the_console_is_started_again_however_often_it_dies(self):
+        with open(os.path.join(PACKAGING, "console", "ivo-console.service"), encoding="utf-8") as file:
+            unit = file.read()
+        self.assertRegex(unit, r"(?s)\[Unit\][^\[]*\nStartLimitIntervalSec=0\n")
+        self.assertIn("\nRestart=always\n", unit)
+
     def test_the_options_that_the_consoles_unit_gives_are_options_of_its_program(self):
         known = said_by(os.path.join(BUILD_DIR, "ivo-console"), "--help")
         text = ""

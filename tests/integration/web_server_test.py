@@ -15,7 +15,7 @@ import unittest
 
 import fake_controller as fake
 from web_server import PROGRAM, WebServerTest
-from websocket_client import BINARY, Refused, WebSocket, frame, request
+from websocket_client import BINARY, PONG, Refused, WebSocket, frame, request
 
 
 class Files(WebServerTest):
@@ -106,7 +106,7 @@ class Pairing(WebServerTest):
         again = self.post_code(code)
         self.assertEqual((again.status, json.loads(again.body)["error"]), (403, "wrong_code"))
 
-    def test_five_wrong_codes_lock_and_make_a_new_one(self):
+    def test_five_wrong_codes_lock_who_guesses(self):
         self.start()
         code = self.code()
         wrong = "000000" if code != "000000" else "111111"
@@ -115,6 +115,8 @@ class Pairing(WebServerTest):
         self.assertEqual((left[4]["error"], left[4]["wait_s"]), ("locked", 30))
         answer = self.post_code(self.code())
         self.assertEqual((answer.status, json.loads(answer.body)["error"]), (403, "locked"), "the right one is not looked at either")
+        self.assertEqual(len([line for line in self.said if "locked" in line]), 1)
+        self.assertEqual(self.code(), code)
 
     def test_what_is_no_pairing_is_refused(self):
         self.start()
@@ -164,6 +166,60 @@ class Pairing(WebServerTest):
 
 
 class Doors(WebServerTest):
+    def test_a_name_that_was_turned_towards_this_machine_is_refused(self):
+        self.start("--origin", "http://tablet:8000")
+        token = self.pair()
+        evil = f"evil.example:{self.port}"
+        code = self.code()
+        answer = request(self.port, "POST", "/pair", {"code": code, "name": "x"}, host=evil, origin=f"http://{evil}")
+        self.assertEqual((answer.status, json.loads(answer.body)), (403, {"error": "foreign_host"}))
+        self.assertEqual(self.code(), code, "nobody was paired")
+        self.page(token).status(lambda status: status["refused"]["foreign_host"] == 1)
+        answer = request(self.port, "PUT", "/areas.geojson", {}, headers=[f"Cookie: ivo={token}"], host=evil, origin=f"http://{evil}")
+        self.assertEqual((answer.status, json.loads(answer.body)), (403, {"error": "foreign_host"}))
+        with self.assertRaises(Refused) as refusal:
+            WebSocket(self.port, token=token, host=evil, origin=f"http://{evil}")
+        self.assertEqual((refusal.exception.status, refusal.exception.body), (403, b'{"error":"foreign_host"}'))
+        for host in (f"127.0.0.1:{self.port}", f"{socket.gethostname()}:{self.port}", f"{socket.gethostname()}.local:{self.port}", "tablet:1"):
+            self.page(token, host=host, origin=f"http://{host}")
+
+    def test_a_body_is_taken_only_from_who_is_paired(self):
+        self.start()
+        with socket.create_connection(("127.0.0.1", self.port), timeout=20) as connection:
+            connection.sendall(f"PUT /areas.geojson HTTP/1.1\r\nHost: localhost:{self.port}\r\nOrigin: http://localhost:{self.port}\r\n"
+                               "Content-Length: 1000000\r\n\r\n".encode())
+            self.assertTrue(connection.recv(4096).startswith(b"HTTP/1.1 403"), "not one byte of it was sent")
+
+    def test_what_is_no_http_is_hung_up_on(self):
+        self.start()
+        for text in (b"CONNECT evil.example:443 HTTP/1.1\r\nHost: evil.example\r\n\r\n", b"CONNECT / HTTP/1.1\r\n\r\n"):
+            with socket.create_connection(("127.0.0.1", self.port), timeout=5) as connection:
+                connection.sendall(text)
+                try:
+                    self.assertIn(connection.recv(12)[:4], (b"", b"HTTP"))
+                    while connection.recv(4096):
+                        pass
+                except ConnectionError:
+                    pass
+
+    def test_what_is_no_websocket_has_a_deadline(self):
+        self.start()
+        begin = time.monotonic()
+        with socket.create_connection(("127.0.0.1", self.port), timeout=60) as connection:
+            connection.sendall(f"POST /pair HTTP/1.1\r\nHost: localhost:{self.port}\r\nOrigin: http://localhost:{self.port}\r\n"
+                               "Content-Length: 1000\r\n\r\n".encode())
+            connection.settimeout(2)
+            while time.monotonic() - begin < 50:  # a byte now and then
+                try:
+                    connection.sendall(b" ")
+                    if connection.recv(100) == b"":
+                        break
+                except socket.timeout:
+                    pass
+                except ConnectionError:
+                    break
+        self.assertLess(time.monotonic() - begin, 40)
+
     def refused(self, **keys):
         with self.assertRaises(Refused) as refusal:
             WebSocket(self.port, **keys)
@@ -318,6 +374,41 @@ class Controls(WebServerTest):
         page.status(lambda status: not status["start_fresh"])
         self.assertEqual(page.ask("start", question=1), "not_fresh", "the last beat is old")
 
+    def test_what_was_held_up_on_its_way_is_not_fresh(self):
+        page = self.operator()
+        old = page.status()["n"]
+        time.sleep(1.1)
+        self.assertEqual(page.ask("beat", seen=old), "not_fresh", "it arrives now, and set out a second ago")
+        self.assertEqual(page.ask("start", question=1, seen=old), "not_fresh")
+        self.assertEqual(page.ask("beat", seen=1 << 31), "not_fresh", "no such status")
+        self.assertEqual(self.fake.messages(fake.BEAT) + self.fake.messages(fake.CONSENT), [])
+        self.assertEqual(page.ask("beat"), "accepted")
+        self.fake.wait_for(fake.BEAT)
+        self.assertEqual(page.ask("start", question=1, seen=old), "not_fresh", "beats come, but this one is old")
+        self.assertEqual(page.ask("start", question=1), "accepted")
+
+    def test_a_ros_clients_beats_are_answers_to_the_newest_ping(self):
+        token = self.new_token("operator", "rviz")
+        ros = WebSocket(self.port, path=f"/?token={token}", protocol=None, origin=None)
+        self.addCleanup(ros.close)
+        ros.answers_pings = False
+        ros.send({"op": "subscribe", "topic": "/ivo/state"})
+        ros.send({"op": "subscribe", "topic": "/tf"})
+        ros.wait_for(lambda message: message["op"] == "publish")
+        ros.send({"op": "call_service", "service": "/ivo/take_control"})
+        self.assertTrue(ros.wait_for(lambda message: message["op"] == "service_response")["values"]["success"])
+        until = time.monotonic() + 1.5
+        while time.monotonic() < until:
+            for payload in (b"", b"\0", b"0", b"99999"):
+                ros.send_frame(payload, PONG)
+            time.sleep(0.1)
+        self.assertEqual(self.fake.messages(fake.BEAT), [])
+        ros.answers_pings = True
+        until = time.monotonic() + 10
+        while not self.fake.messages(fake.BEAT) and time.monotonic() < until:
+            ros.hear()
+        self.assertTrue(self.fake.messages(fake.BEAT))
+
     def test_what_the_controller_says_no_to_is_said_so(self):
         page = self.operator()
         for verdict, name in ((fake.NOT_ASKED, "not_asked"), (fake.OTHER_QUESTION, "other_question"), (fake.ANSWERED, "answered"),
@@ -360,14 +451,14 @@ class Hostile(WebServerTest):
 
     def test_order_and_repetition(self):
         page = self.page(self.token)
-        for message, verdict in (('{"seq":2,"do":"beat"}', "out_of_order"), ('{"seq":1,"do":"beat"}', "accepted"), ('{"seq":1,"do":"beat"}', "replayed"),
-                                 ('{"seq":0,"do":"beat"}', "malformed"), ('{"seq":2,"do":"bow"}', "malformed"), ('{"seq":3,"do":"beat"}', "accepted"),
-                                 ('{"seq":4,"do":"beat","do":"end"}', "malformed"), ('{"seq":4,"do":"beat","more":1}', "malformed"),
-                                 ('{"seq":4,"do":"position","agent":1,"x_m":1e999,"y_m":0}', "malformed"), ('{"seq":4.0,"do":"beat"}', "malformed"),
-                                 ("[" * 5000, "malformed"), ("", "malformed"), ('{"seq":4,"do":"beat"}' + " " * 9000, "too_large")):
-            page.send(message)
+        for message, verdict in (('{"seq":2,"do":"beat","seen":SEEN}', "out_of_order"), ('{"seq":1,"do":"beat","seen":SEEN}', "accepted"), ('{"seq":1,"do":"beat","seen":SEEN}', "replayed"),
+                                 ('{"seq":0,"do":"beat","seen":SEEN}', "malformed"), ('{"seq":2,"do":"bow"}', "malformed"), ('{"seq":3,"do":"beat","seen":SEEN}', "accepted"),
+                                 ('{"seq":4,"do":"beat","seen":SEEN,"do":"end"}', "malformed"), ('{"seq":4,"do":"beat","seen":SEEN,"more":1}', "malformed"),
+                                 ('{"seq":4,"do":"position","agent":1,"x_m":1e999,"y_m":0}', "malformed"), ('{"seq":4.0,"do":"beat","seen":SEEN}', "malformed"),
+                                 ("[" * 5000, "malformed"), ("", "malformed"), ('{"seq":4,"do":"beat","seen":SEEN}' + " " * 9000, "too_large")):
+            page.send(message.replace("SEEN", str(page.seen())))
             self.assertEqual(page.wait_for("answer")["verdict"], verdict, message[:60])
-        page.send_frame('{"seq":4,"do":"beat"}', BINARY)
+        page.send_frame('{"seq":4,"do":"beat","seen":1}', BINARY)
         self.assertEqual(page.wait_for("answer")["verdict"], "malformed")
         refused = page.status(lambda status: status["refused"]["malformed"] >= 9)["refused"]
         self.assertEqual((refused["replayed"], refused["out_of_order"], refused["too_large"]), (1, 1, 1))
@@ -375,7 +466,7 @@ class Hostile(WebServerTest):
     def test_a_message_in_parts_is_one(self):
         page = self.page(self.token)
         page.send_frame('{"seq":1,', final=False)
-        page.send_frame('"do":"beat"}', opcode=0)
+        page.send_frame('"do":"beat","seen":%d}' % page.seen(), opcode=0)
         self.assertEqual(page.wait_for("answer")["verdict"], "accepted")
 
     def test_a_stop_is_never_too_often(self):

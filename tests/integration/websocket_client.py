@@ -5,6 +5,7 @@ import collections
 import hashlib
 import json
 import os
+import select
 import socket
 import struct
 import time
@@ -35,7 +36,7 @@ class Refused(Exception):
 
 
 class WebSocket:
-    def __init__(self, port, path="/session", protocol="ivo-console", token=None, origin="", headers=(), patience_s=20, wrap=None, receive_buffer=None):
+    def __init__(self, port, path="/session", protocol="ivo-console", token=None, origin="", headers=(), patience_s=20, wrap=None, receive_buffer=None, host=None):
         """`origin` empty: this server's own; None: none is said. `token` goes as the cookie."""
         raw = socket.socket()
         if receive_buffer:
@@ -44,7 +45,7 @@ class WebSocket:
         raw.connect(("127.0.0.1", port))
         self.socket = wrap(raw) if wrap else raw
         key = base64.b64encode(os.urandom(16)).decode()
-        lines = [f"GET {path} HTTP/1.1", f"Host: localhost:{port}", "Upgrade: websocket", "Connection: Upgrade", f"Sec-WebSocket-Key: {key}",
+        lines = [f"GET {path} HTTP/1.1", f"Host: {host or f'localhost:{port}'}", "Upgrade: websocket", "Connection: Upgrade", f"Sec-WebSocket-Key: {key}",
                  "Sec-WebSocket-Version: 13"]
         if protocol:
             lines.append(f"Sec-WebSocket-Protocol: {protocol}")
@@ -61,6 +62,8 @@ class WebSocket:
         accept = base64.b64encode(hashlib.sha1((key + GUID).encode()).digest()).decode()
         assert dict(answer)["sec-websocket-accept"] == accept, answer
         self.sequence = 0
+        self.newest = None  # number of the newest status that was read
+        self.ahead = collections.deque()  # read, and not heard yet
         self.answers_pings = True
 
     def close(self):
@@ -74,6 +77,8 @@ class WebSocket:
 
     def say(self, do, **keys):
         """The next message in order; its number."""
+        if do in ("beat", "start"):
+            keys.setdefault("seen", self.seen())
         self.sequence += 1
         self.send({"seq": self.sequence, "do": do, **keys})
         return self.sequence
@@ -116,7 +121,22 @@ class WebSocket:
             return opcode, payload
 
     def hear(self):
-        return json.loads(self.frame()[1])
+        return self.ahead.popleft() if self.ahead else self._read_message()
+
+    def _read_message(self):
+        message = json.loads(self.frame()[1])
+        if isinstance(message, dict) and message.get("type") == "status":
+            self.newest = message["n"]
+        return message
+
+    def _has_more(self):
+        return bool(self.rest) or getattr(self.socket, "pending", lambda: 0)() > 0 or bool(select.select([self.socket], [], [], 0)[0])
+
+    def seen(self):
+        """The number of the newest status that has come. What is read meanwhile is heard later."""
+        while self.newest is None or self._has_more():
+            self.ahead.append(self._read_message())
+        return self.newest
 
     def wait_for(self, wanted, patience_s=20):
         """The next message that is wanted: a type, or a condition."""

@@ -1,5 +1,6 @@
 // Says to the server that somebody can see this page. Only a frame that was drawn in time says so: a page that hangs, is
 // hidden, sleeps or shows old data is no eye on the robot.
+// With each goes the number of the status that was drawn last.
 import { send } from "./socket.js";
 
 const kPeriodMs = 400;

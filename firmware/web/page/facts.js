@@ -3,7 +3,7 @@ import { by_id, make } from "./dom.js";
 import { share_inside } from "./geometry.js";
 import { agents_of, areas_of } from "./judge.js";
 import { model } from "./model.js";
-import { percent, say, seconds } from "./words.js";
+import { metres, percent, say, seconds } from "./words.js";
 
 let drawn_from = [];
 
@@ -20,6 +20,7 @@ function rows_of(plan, agents) {
   const or_none = (value, words) => (value === null || value === undefined ? "–" : words(value));
   row("et", say("facts.et"), (each) => or_none(each?.score?.expected_time_s, (value) => seconds(value, 1)));
   agents.forEach((agent, i) => {
+    row(`distance-${i}`, say("facts.distance", { name: agent.name }), (each) => or_none(each?.agents?.[i]?.length_m, metres));
     if (agent.kind !== "person") return;
     row(`preferred-${i}`, say("facts.preferred", { name: agent.name }), (each) => or_none(preferred_share(each, i), percent));
   });

@@ -7,6 +7,7 @@ export const model = {
   heard_at_ms: null,
   hello: null,
   status: null,
+  drawn: 0,        // the number of the newest status that is drawn, on this connection; 0: none
   documents: {},  // by name: the value
   grids: {},      // by name: the revision
   layers: {},     // by name: the message, with when it came
@@ -26,6 +27,7 @@ export function changed() {
   requestAnimationFrame(() => {
     asked = false;
     for (const view of watchers) view(model);
+    model.drawn = model.status?.n ?? 0;
   });
 }
 
@@ -39,6 +41,8 @@ export function take(message) {
   switch (message.type) {
     case "hello":
       model.hello = message;
+      if (model.status !== null) model.status = { ...model.status, n: 0 };
+      model.drawn = 0;
       // What an earlier connection said may not hold any more.
       model.documents = {};
       model.grids = {};

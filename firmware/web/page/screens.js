@@ -6,7 +6,8 @@ import { note_held } from "./regain.js";
 import { tell } from "./tell.js";
 import { number, say } from "./words.js";
 
-const kRefused = ["malformed", "too_large", "out_of_order", "replayed", "too_often", "not_allowed", "by_controller", "foreign_origin", "wrong_code"];
+const kRefused = ["malformed", "too_large", "out_of_order", "replayed", "too_often", "not_allowed", "not_fresh", "no_controller", "by_controller", "foreign_origin",
+  "foreign_host", "not_paired", "wrong_code"];
 let drawn_screens = "";
 let drawn_details = "";
 

@@ -1,5 +1,5 @@
 // The one connection to the server: opens it, opens it again, numbers what is sent and hands each answer to who asked.
-import { take, take_link } from "./model.js";
+import { model, take, take_link } from "./model.js";
 
 const kFirstWaitMs = 250;
 const kLongestWaitMs = 2000;
@@ -11,6 +11,7 @@ let sequence = 0;
 let wait_ms = kFirstWaitMs;
 let heard_at_ms = 0;
 let timer = 0;
+const kSeenWith = ["beat", "start"];  // say which status was drawn last: so it shows how long they were on their way
 const waiting = new Map();  // by sequence number: who waits for the verdict
 
 function address() {
@@ -83,7 +84,8 @@ export function send(action, keys = {}) {
   if (socket === null || socket.readyState !== WebSocket.OPEN) return Promise.resolve("lost");
   sequence += 1;
   const number = sequence;
-  socket.send(JSON.stringify({ seq: number, do: action, ...keys }));
+  const seen = kSeenWith.includes(action) ? { seen: model.drawn } : {};
+  socket.send(JSON.stringify({ seq: number, do: action, ...keys, ...seen }));
   return new Promise((answer) => waiting.set(number, answer));
 }
 

@@ -143,6 +143,7 @@ export const words = {
   "facts.now": "This plan",
   "facts.before": "Before",
   "facts.et": "Expected time to find it",
+  "facts.distance": "{name}'s distance",
   "facts.preferred": "{name}'s path in preferred areas",
   "facts.gap": "Gap to the lower bound",
 
@@ -268,8 +269,12 @@ export const words = {
   "refused.replayed": "Sent twice",
   "refused.too_often": "Too many",
   "refused.not_allowed": "Without the controls",
+  "refused.not_fresh": "Link not steady enough",
+  "refused.no_controller": "The robot did not answer",
   "refused.by_controller": "Refused by the robot",
   "refused.foreign_origin": "From another site",
+  "refused.foreign_host": "For another host",
+  "refused.not_paired": "Not paired",
   "refused.wrong_code": "Wrong code",
 
   "verdict.lost": "No connection: that did not arrive.",

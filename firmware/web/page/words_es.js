@@ -143,6 +143,7 @@ export const words = {
   "facts.now": "Este plan",
   "facts.before": "Antes",
   "facts.et": "Tiempo esperado hasta encontrarlo",
+  "facts.distance": "Distancia de {name}",
   "facts.preferred": "Camino de {name} en zonas preferidas",
   "facts.gap": "Distancia a la cota inferior",
 
@@ -268,8 +269,12 @@ export const words = {
   "refused.replayed": "Enviados dos veces",
   "refused.too_often": "Demasiados",
   "refused.not_allowed": "Sin el mando",
+  "refused.not_fresh": "Enlace poco estable",
+  "refused.no_controller": "El robot no respondió",
   "refused.by_controller": "Rechazados por el robot",
   "refused.foreign_origin": "De otro sitio",
+  "refused.foreign_host": "Para otra máquina",
+  "refused.not_paired": "Sin emparejar",
   "refused.wrong_code": "Código erróneo",
 
   "verdict.lost": "Sin conexión: eso no ha llegado.",

@@ -66,7 +66,7 @@ double sigma_of(JsonReading& reading, const Json& list, std::size_t i) {
 void expect_map_frame(JsonReading& reading, const Json& message) {
   const std::string frame = frame_of(reading, message);
   if (!frame.empty() && frame != "map") {
-    reading.fault("header.frame_id", "\"" + frame + "\" is another frame; expected \"map\"");
+    reading.fault("header.frame_id", shown_text(frame) + " is another frame; expected \"map\"");
   }
 }
 
@@ -80,7 +80,7 @@ PointFrame point_frame(JsonReading& reading, const Json& message, bool may_be_ma
     for (const std::string_view name : kRobotFrames) {
       all.append(all.empty() ? "" : ", ").append(name);
     }
-    reading.fault("header.frame_id", "\"" + frame + "\" is another frame; expected one of " + all);
+    reading.fault("header.frame_id", shown_text(frame) + " is another frame; expected one of " + all);
   }
   return PointFrame::kRobot;
 }

@@ -5,6 +5,7 @@
 
 #include "firmware/web/layer.hpp"
 #include "firmware/web/request.hpp"
+#include "firmware/web/verdict.hpp"
 
 namespace ivo::firmware::web {
 
@@ -20,6 +21,10 @@ class RosCommands {
   virtual std::uint32_t ask(const Request& request) = 0;
   /// Replaces the layer of that name on every page.
   virtual void show(const Layer& layer) = 0;
+  /// Its token is an operator's.
+  [[nodiscard]] virtual bool may_operate() const = 0;
+  /// Counts what the session itself has refused.
+  virtual void refused(Verdict verdict) = 0;
 };
 
 }  // namespace ivo::firmware::web

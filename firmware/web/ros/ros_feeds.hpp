@@ -26,10 +26,12 @@ struct RosSubscription {
 /// it, as CBOR when one of them wants it so. Only the newest value of a topic is ever sent.
 class RosFeeds {
  public:
-  static constexpr std::size_t kMost = 64;  ///< subscriptions
+  static constexpr std::size_t kMost = 64;              ///< subscriptions
+  static constexpr std::size_t kMostBytes = 8U << 20U;  ///< taken at once, and a frame; the others are taken next
 
-  /// The topic's newest value follows at once. Refuses an unknown topic, another type than the topic has, and one too
-  /// many. `mission` null: whether there is such an agent is looked at later.
+  /// The topic's newest value follows as soon as it may: who subscribes again is sent no more for that. Refuses an
+  /// unknown topic, another type than the topic has, and one too many. `mission` null: whether there is such an agent
+  /// is looked at later.
   [[nodiscard]] Result<void> subscribe(const std::string& name, const std::string& type, RosSubscription subscription,
                                        const RosMission* mission);
   /// Without an id all of the topic's. False when there was none.
@@ -45,8 +47,9 @@ class RosFeeds {
     std::string name;  // as the client spells it
     Topic<Outgoing> topic;
     bool ros2 = true;
-    std::vector<RosSubscription> subscriptions;
-    std::uint64_t sent = 0;  // version
+    std::vector<RosSubscription> subscriptions;  // none: it waits to be forgotten
+    std::uint64_t sent = 0;                      // version
+    std::optional<Instant> sent_at;
     std::optional<Instant> due;
     std::uint32_t sequence = 0;
   };
@@ -54,8 +57,10 @@ class RosFeeds {
   [[nodiscard]] std::size_t count() const;
   static void send(std::vector<Frame>& frames, Feed& feed, const View& view, const RosMission& mission, Instant now,
                    Duration since_epoch);
+  void forget(std::vector<std::string>& unknown, const RosMission* mission, Instant now);
 
   std::vector<Feed> feeds_;
+  std::size_t next_ = 0;  // for which there was no room
 };
 
 }  // namespace ivo::firmware::web

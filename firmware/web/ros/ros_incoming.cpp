@@ -92,7 +92,7 @@ RosHeard robot_pose(JsonReading& reading, const Json& message, const RosSetting&
   }
   const UncertainPose uncertain = uncertain_pose_of(reading, *pose);
   const Point place = setting.mission.from_ros(uncertain.pose.point());
-  return {position_of(uncertain, 0, age, setting.mission),
+  return {std::nullopt,
           Layer{LayerName::kRobotPose, setting.now - from_seconds(age), {place}, uncertain.pose.heading_rad}};
 }
 

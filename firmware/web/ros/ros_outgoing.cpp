@@ -159,7 +159,8 @@ std::uint64_t version_of(Outgoing what, const View& view, Instant now) {
 }
 
 Duration least_period_of(Outgoing what) {
-  const bool grid = what == Outgoing::kBelief || what == Outgoing::kBeliefMass || what == Outgoing::kNoGo;
+  const bool grid = what == Outgoing::kMap || what == Outgoing::kProbability || what == Outgoing::kProbabilityMass ||
+                    what == Outgoing::kBelief || what == Outgoing::kBeliefMass || what == Outgoing::kNoGo;
   return grid ? std::chrono::milliseconds(200) : Duration{};
 }
 

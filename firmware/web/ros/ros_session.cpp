@@ -4,6 +4,7 @@
 #include <array>
 #include <iterator>
 #include <utility>
+#include <variant>
 
 #include "firmware/files/json_reading.hpp"
 #include "firmware/web/ros/json_writer.hpp"
@@ -74,10 +75,11 @@ const RosMission* RosSession::mission() {
 }
 
 void RosSession::put(std::string text) {
-  if (frames_.size() >= kMostFrames) {
+  if (frames_.size() >= kMostFrames || frame_bytes_ + text.size() > kMostFrameBytes) {
     ++dropped_;
     return;
   }
+  frame_bytes_ += text.size();
   frames_.push_back({std::move(text), false});
 }
 
@@ -97,8 +99,12 @@ void RosSession::say(StatusLevel level, const std::string& id, const std::string
   put(writer.take());
 }
 
-void RosSession::refuse(const std::string& id, std::string_view about, std::string_view what) {
+void RosSession::refuse(const std::string& id, std::string_view about, std::string_view what,
+                        std::optional<Verdict> verdict) {
   ++refused_;
+  if (verdict) {
+    commands_.refused(*verdict);
+  }
   say(StatusLevel::kError, id, std::string(about).append(about.empty() ? "" : ": ").append(what));
 }
 
@@ -116,9 +122,25 @@ void RosSession::respond(const std::string& id, const std::string& service, bool
   put(writer.take());
 }
 
+bool RosSession::comes_too_often(std::string_view message, Instant now) {
+  if (pace_.may_say(message.size(), now)) {
+    return false;
+  }
+  // Whatever else a client says: that it wants the robot to stand is heard.
+  const bool perhaps = message.size() <= RosPace::kShortBytes && message.find("stop") != std::string_view::npos;
+  if (!perhaps || !pace_.may_stop(now)) {
+    return true;
+  }
+  const Result<Json> json = parse_json(message, "message", "an operation of rosbridge");
+  const Json* const op = json ? json.value().member("op") : nullptr;
+  const Json* const service = json ? json.value().member("service") : nullptr;
+  const std::optional<RosTrigger> trigger = service != nullptr ? trigger_named(service->text) : std::nullopt;
+  return op == nullptr || op->text != "call_service" || !trigger || trigger->what != RosAsk::kStop;
+}
+
 void RosSession::hear(std::string_view message, bool binary, Instant now) {
-  if (!pace_.may_say(message.size(), now)) {
-    refuse("", "", "too often; expected at most 400 messages and 16 MiB a second");
+  if (comes_too_often(message, now)) {
+    refuse("", "", "too often; expected at most 400 messages and 16 MiB a second", Verdict::kTooOften);
     return;
   }
   if (binary) {
@@ -126,11 +148,12 @@ void RosSession::hear(std::string_view message, bool binary, Instant now) {
     return;
   }
   if (message.size() > kMostBytes) {
-    refuse("", "", "a message of " + std::to_string(message.size()) + " bytes; expected at most 4 MiB");
+    refuse("", "", "a message of " + std::to_string(message.size()) + " bytes; expected at most 4 MiB",
+           Verdict::kTooLarge);
     return;
   }
   if (static_cast<std::size_t>(std::count(message.begin(), message.end(), ',')) > kMostValues) {
-    refuse("", "", "a message of more than 300000 values; expected bytes as base64");
+    refuse("", "", "a message of more than 300000 values; expected bytes as base64", Verdict::kTooLarge);
     return;
   }
   const Result<Json> json = parse_json(message, "message", "an operation of rosbridge");
@@ -215,6 +238,10 @@ void RosSession::hear_publish(const Json& message, const std::string& id, Instan
     refuse(id, name, "unknown; expected a topic of /rosapi/topics that is taken in");
     return;
   }
+  if (topic->what == Incoming::kRobotPose && !commands_.may_operate()) {
+    refuse(id, name, "not_allowed: comes with a viewer's token; expected an operator's", Verdict::kNotAllowed);
+    return;
+  }
   const RosMission* const known = mission();
   if (known == nullptr) {
     refuse(id, name, "the mission is not known yet; expected a controller that is there");
@@ -285,6 +312,7 @@ void RosSession::hear_call(const Json& message, const std::string& id, Instant n
   }
   const auto fail = [&](const std::string& why) {
     ++refused_;
+    commands_.refused(Verdict::kMalformed);
     respond(id, name, false, quoted_text(name + ": " + why));
   };
   const RosMission* const known = mission();
@@ -299,6 +327,9 @@ void RosSession::hear_call(const Json& message, const std::string& id, Instant n
   if (!trigger) {
     return fail("unknown; expected a service of /rosapi/services");
   }
+  if (trigger->what == RosAsk::kStop) {
+    return ask(Stop{}, id, name, true, now);  // whatever is known
+  }
   if (known == nullptr) {
     return fail("the mission is not known yet; expected a controller that is there");
   }
@@ -310,6 +341,7 @@ void RosSession::hear_call(const Json& message, const std::string& id, Instant n
   const Result<Request> request = ros_request(trigger->what, agent, view_, *known, accepted_plan_);
   if (!request) {
     ++refused_;
+    commands_.refused(Verdict::kMalformed);
     JsonWriter values;
     values.begin_object();
     values.add("success", false).add("message", request.error().message).end_object();
@@ -324,7 +356,8 @@ void RosSession::ask(const Request& request, const std::string& id, const std::s
   if (const auto* accept = std::get_if<Accept>(&request)) {
     pending.plan = accept->plan;
   }
-  if (pending_.size() >= kMostPending) {
+  if (pending_.size() >= kMostPending && !std::holds_alternative<Stop>(request)) {
+    commands_.refused(Verdict::kTooOften);
     finish(pending, Verdict::kTooOften);
     return;
   }
@@ -355,7 +388,7 @@ void RosSession::finish(const Pending& pending, Verdict verdict) {
     values.add("success", accepted).add("message", word).end_object();
     respond(pending.id, pending.name, true, values.take());
   } else if (!accepted) {
-    refuse(pending.id, pending.name, word);
+    refuse(pending.id, pending.name, word, std::nullopt);
   }
 }
 
@@ -372,6 +405,7 @@ std::vector<Frame> RosSession::take(Instant now) {
     refuse("", name, "names an agent that is not there; expected one of /rosapi/topics");
   }
   std::vector<Frame> frames = std::exchange(frames_, {});
+  frame_bytes_ = 0;
   std::move(publications.begin(), publications.end(), std::back_inserter(frames));
   return frames;
 }

@@ -29,6 +29,7 @@ class RosSession {
   static constexpr std::size_t kMostName = 256;         ///< of a topic, a service, a type, an id
   static constexpr std::size_t kMostPending = 64;       ///< asked and not answered
   static constexpr std::size_t kMostFrames = 256;       ///< answers that wait to be taken; what is beyond is counted
+  static constexpr std::size_t kMostFrameBytes = 8U << 20U;        ///< of them
   static constexpr Duration kPatience = std::chrono::seconds(10);  ///< for an answer
 
   /// Both outlive this. `epoch`: what to add to an Instant for the time since 1970; without it stamps count from
@@ -68,7 +69,10 @@ class RosSession {
 
   void ask(const Request& request, const std::string& id, const std::string& name, bool service, Instant now);
   void finish(const Pending& pending, Verdict verdict);
-  void refuse(const std::string& id, std::string_view about, std::string_view what);
+  /// `verdict` as it is counted; none: that is done.
+  void refuse(const std::string& id, std::string_view about, std::string_view what,
+              std::optional<Verdict> verdict = Verdict::kMalformed);
+  [[nodiscard]] bool comes_too_often(std::string_view message, Instant now);
   void say(StatusLevel level, const std::string& id, const std::string& text);
   void respond(const std::string& id, const std::string& service, bool result, std::string_view values);
   void put(std::string text);
@@ -86,6 +90,7 @@ class RosSession {
   std::uint32_t accepted_plan_ = 0;
   std::uint64_t connections_ = 0;  // of the view: another run counts its plans anew
   std::vector<Frame> frames_;
+  std::size_t frame_bytes_ = 0;
   std::uint64_t refused_ = 0;
   std::uint64_t dropped_ = 0;
 };

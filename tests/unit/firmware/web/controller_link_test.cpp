@@ -179,6 +179,23 @@ TEST_F(ControllerLinkTest, LeavesWhoSpeaksNonsense) {
   EXPECT_NE(link_.complaint().find("does not speak"), std::string::npos);
 }
 
+TEST_F(ControllerLinkTest, ConnectsAnewWhenItsNumbersDoNotCount) {
+  for (const console::Verdict verdict : {console::Verdict::kOutOfOrder, console::Verdict::kReplayed}) {
+    listen();
+    connect();
+    say_status();
+    EXPECT_EQ(link_.say(Init{}, now_), 1U);
+    answer(1, verdict);
+    EXPECT_EQ(view().link, LinkState::kAbsent);
+    EXPECT_FALSE(link_.say(Init{}, now_).has_value());
+    connect();
+    say_status();
+    EXPECT_EQ(view().link, LinkState::kConnected);
+    EXPECT_EQ(link_.say(Init{}, now_), 1U);
+    leave();
+  }
+}
+
 TEST_F(ControllerLinkTest, NeverWaitsForWhoDoesNotRead) {
   listen();
   connect();
@@ -217,7 +234,7 @@ TEST_F(RequestsTest, AreTheOperatorsButForLookingStoppingAndSeeing) {
   EXPECT_EQ(ask(1, Stop{}), "asked");
   EXPECT_EQ(ask(1, Found{}), "asked");
   EXPECT_EQ(ask(1, Position{}), "asked");
-  EXPECT_EQ(ask(1, Beat{}), "accepted");
+  EXPECT_EQ(ask(1, Beat{}, true), "accepted");
   EXPECT_EQ(ask(1, RequestControl{}), "accepted");
   EXPECT_EQ(ask(1, Init{}), "asked");
   EXPECT_EQ(ask(1, End{}), "asked");
@@ -237,12 +254,47 @@ TEST_F(RequestsTest, PassOnTheOperatorsBeatsTenTimesASecondAtMost) {
   EXPECT_EQ(ask(1, RequestControl{}), "accepted");
   int passed_on = 0;
   for (int i = 0; i < 100; ++i) {
-    passed_on += ask(1, Beat{}) == "asked" ? 1 : 0;
-    EXPECT_EQ(ask(2, Beat{}), "accepted");
+    passed_on += ask(1, Beat{}, true) == "asked" ? 1 : 0;
+    EXPECT_EQ(ask(2, Beat{}, true), "accepted");
     now_ += 10ms;
   }
   EXPECT_GE(passed_on, 10);
   EXPECT_LE(passed_on, 20);
+}
+
+TEST_F(RequestsTest, PassOnNoBeatThatIsOld) {
+  EXPECT_EQ(ask(1, RequestControl{}), "accepted");
+  EXPECT_EQ(ask(1, Beat{}), "not_fresh");
+  EXPECT_FALSE(heard().has_value());
+}
+
+TEST_F(RequestsTest, OfOthersComeSixtyASecondAtMostTogether) {
+  EXPECT_EQ(ask(1, RequestControl{}), "accepted");
+  for (int i = 0; i < Requests::kOthersPerSecond / 2; ++i) {
+    EXPECT_EQ(ask(2, Position{}), "asked");
+    EXPECT_EQ(ask(3, Found{}), "asked");
+  }
+  EXPECT_EQ(ask(2, Position{}), "too_often");
+  EXPECT_EQ(ask(4, Found{}), "too_often");
+  EXPECT_EQ(ask(1, Position{}), "asked");
+  EXPECT_EQ(ask(4, Stop{}), "asked");
+  now_ += 17ms;
+  EXPECT_EQ(ask(4, Found{}), "asked");
+}
+
+TEST_F(RequestsTest, ThatTheControllerWouldRefuseAreNotSaid) {
+  EXPECT_EQ(ask(1, RequestControl{}), "accepted");
+  for (const double wrong : {1e7, -1e7, std::numeric_limits<double>::quiet_NaN()}) {
+    Position position;
+    position.pose.x_m = wrong;
+    EXPECT_EQ(ask(1, position), "out_of_range");
+    PutArea area{
+        .slot = 0, .purpose = console::AreaPurpose::kNoGo, .agent = 0, .polygon = {{0, 0}, {1, 0}, {1, wrong}}};
+    EXPECT_EQ(ask(1, area), "out_of_range");
+    area.polygon.pop_back();
+    EXPECT_EQ(ask(1, area), "not_an_area");
+  }
+  EXPECT_FALSE(heard().has_value());
 }
 
 TEST_F(RequestsTest, AreSettledByTheControllersAnswer) {

@@ -7,6 +7,7 @@
 namespace ivo::firmware::web {
 namespace {
 
+using std::chrono_literals::operator""ms;
 using std::chrono_literals::operator""s;
 
 class HttpDeskTest : public testing::Test {
@@ -49,10 +50,12 @@ class HttpDeskTest : public testing::Test {
   Hub hub_{folder_.path("nobody"), [](const std::string&) {}};
   TokenStore tokens_ = std::move(TokenStore::open(folder_.path("state"))).value();
   PairingCode code_;
-  HttpDesk desk_{
-      site_, hub_, tokens_, code_, {.tls = false, .origins = {"http://tablet:1"}}, [this](const std::string& line) {
-        said_.push_back(line);
-      }};
+  HttpDesk desk_{site_,
+                 hub_,
+                 tokens_,
+                 code_,
+                 {.tls = false, .origins = {"http://tablet:1"}, .machine = "robot"},
+                 [this](const std::string& line) { said_.push_back(line); }};
 };
 
 TEST_F(HttpDeskTest, GivesThePageToEverybodyAndNothingElse) {
@@ -100,7 +103,8 @@ TEST_F(HttpDeskTest, PairsNobodyFromAnotherOrigin) {
 }
 
 TEST_F(HttpDeskTest, MarksItsCookieSecureOverTls) {
-  HttpDesk desk(site_, hub_, tokens_, code_, {.tls = true, .origins = {}}, [](const std::string&) {});
+  HttpDesk desk(site_, hub_, tokens_, code_, {.tls = true, .origins = {}, .machine = "robot"},
+                [](const std::string&) {});
   HttpRequest secure = pairing(code_.digits());
   secure.origin = "https://robot:8080";
   EXPECT_TRUE(header(desk.answer(secure, now_), "set-cookie:").ends_with("; Secure"));
@@ -127,12 +131,74 @@ TEST_F(HttpDeskTest, LetsInWhoIsPairedFromOurPageAndProgramsWithTheirToken) {
 
 TEST_F(HttpDeskTest, ShowsTheCodeOnThisMachineAlone) {
   HttpRequest screen = request("GET", "/screen");
-  screen.from_this_machine = true;
+  screen.client.this_machine = true;
   EXPECT_EQ(answer(screen).status, 403);
   screen.host = "localhost:8080";
   EXPECT_NE(answer(screen).body->find(code_.digits()), std::string::npos);
-  screen.from_this_machine = false;
+  screen.client.this_machine = false;
   EXPECT_EQ(answer(screen).status, 403);
+}
+
+TEST_F(HttpDeskTest, RefusesWhatComesForAnotherHost) {
+  HttpRequest rebound = pairing(code_.digits());
+  rebound.host = "evil.example:8080";
+  rebound.origin = "http://evil.example:8080";
+  const std::optional<HttpAnswer> refusal = desk_.refusal(rebound, 60);
+  ASSERT_TRUE(refusal.has_value());
+  EXPECT_EQ(refusal->status, 403);
+  EXPECT_EQ(*refusal->body, R"({"error":"foreign_host"})");
+  EXPECT_EQ(hub_.refusals().foreign_host(), 1U);
+  rebound.host = "tablet:8080";
+  EXPECT_FALSE(desk_.refusal(rebound, 60).has_value());
+  EXPECT_TRUE(desk_.foreign_host(request("GET", "/")) == std::nullopt);
+}
+
+TEST_F(HttpDeskTest, ReadsABodyOnlyOfWhoMaySendIt) {
+  HttpRequest put = request("PUT", "/areas.geojson");
+  put.origin = "http://robot:8080";
+  EXPECT_EQ(desk_.refusal(put, 100)->status, 403);
+  EXPECT_EQ(hub_.refusals().not_paired(), 1U);
+  put.token = paired_token();
+  EXPECT_FALSE(desk_.refusal(put, 100).has_value());
+  EXPECT_EQ(desk_.refusal(put, HttpDesk::kLongestAreas + 1)->status, 413);
+  EXPECT_EQ(desk_.refusal(request("GET", "/"), 1)->status, 413);
+  EXPECT_EQ(hub_.refusals().of(Verdict::kTooLarge), 2U);
+  EXPECT_FALSE(desk_.refusal(pairing(""), 60).has_value());
+}
+
+TEST_F(HttpDeskTest, MakesAreasAndMaskOnceAsLongAsNothingChanges) {
+  const std::string token = paired_token();
+  for (const char* path : {"/areas.geojson", "/keepout.pgm", "/keepout.yaml"}) {
+    HttpRequest get = request("GET", path);
+    get.token = token;
+    EXPECT_EQ(answer(get).status, 404);
+    EXPECT_EQ(answer(get).body, answer(get).body) << path;
+  }
+}
+
+TEST_F(HttpDeskTest, CountsWhatItRefuses) {
+  HttpRequest odd = pairing("");
+  odd.body = "nonsense";
+  EXPECT_EQ(answer(odd).status, 400);
+  EXPECT_EQ(answer(request("GET", "/plan.json")).status, 403);
+  HttpRequest put = request("PUT", "/areas.geojson");
+  put.origin = "http://robot:8080";
+  put.token = paired_token();
+  EXPECT_EQ(answer(put).status, 400);
+  EXPECT_EQ(hub_.refusals().of(Verdict::kMalformed), 2U);
+  EXPECT_EQ(hub_.refusals().not_paired(), 1U);
+}
+
+TEST_F(HttpDeskTest, SaysALockOnceAndNoCodeWithATry) {
+  const std::string code = code_.digits();
+  for (int i = 0; i < 20; ++i) {
+    EXPECT_EQ(answer(pairing("nothex")).status, 403);
+  }
+  EXPECT_EQ(said_.size(), 5U);
+  for (const std::string& line : said_) {
+    EXPECT_EQ(line.find(code), std::string::npos) << line;
+  }
+  EXPECT_EQ(hub_.refusals().wrong_code(), 20U);
 }
 
 TEST_F(HttpDeskTest, TakesBodiesWhereOneBelongs) {
@@ -185,8 +251,8 @@ TEST_F(HubTest, SaysAStatusTwiceASecondAndWhenSomethingIsNew) {
 TEST_F(HubTest, AnswersEveryMessageButForAFloodWithoutForm) {
   Session& session = hub_.came(ana_, false, now_);
   (void)next(session);
-  session.hear(R"({"seq":1,"do":"beat"})", false, now_);
-  EXPECT_EQ(next(session), R"({"type":"answer","seq":1,"verdict":"accepted"})");
+  session.hear(R"({"seq":1,"do":"beat","seen":9})", false, now_);
+  EXPECT_EQ(next(session), R"({"type":"answer","seq":1,"verdict":"not_fresh"})");
   for (int i = 0; i < 10'000; ++i) {
     session.hear("nonsense", false, now_);
   }
@@ -194,19 +260,52 @@ TEST_F(HubTest, AnswersEveryMessageButForAFloodWithoutForm) {
   EXPECT_EQ(hub_.refusals().of(Verdict::kMalformed), 10'000U);
 }
 
-TEST_F(HubTest, IsFreshWhenABeatHasComeAndAStatusGoneOut) {
+TEST_F(HubTest, NumbersTheStatusesOfEachPageForItself) {
+  Session& first = hub_.came(ana_, false, now_);
+  (void)next(first);
+  EXPECT_NE(next(first).find(",\"n\":1}"), std::string::npos);
+  now_ += 1s;
+  hub_.turn(now_);
+  EXPECT_NE(next(first).find(",\"n\":2}"), std::string::npos);
+  Session& second = hub_.came(ana_, false, now_);
+  (void)next(second);
+  EXPECT_NE(next(second).find(",\"n\":1}"), std::string::npos);
+}
+
+TEST_F(HubTest, IsFreshByTheAgeOfTheStatusThatWasSeenNotByWhatArrives) {
   Session& session = hub_.came(ana_, false, now_);
   (void)next(session);
-  session.hear(R"({"seq":1,"do":"beat"})", false, now_);
-  EXPECT_FALSE(session.liveness().fresh(now_));
   (void)next(session);
-  session.written(now_);  // the answer: that is no status
-  EXPECT_FALSE(session.liveness().fresh(now_));
-  (void)next(session);
+  session.hear(R"({"seq":1,"do":"beat","seen":1})", false, now_);
+  EXPECT_FALSE(session.fresh(1, now_));  // not written yet
   session.written(now_);
-  EXPECT_TRUE(session.liveness().fresh(now_));
-  EXPECT_TRUE(session.liveness().fresh(now_ + 1s));
-  EXPECT_FALSE(session.liveness().fresh(now_ + 1s + Duration(1)));
+  session.hear(R"({"seq":2,"do":"beat","seen":2})", false, now_);
+  EXPECT_FALSE(session.fresh(1, now_));  // there was no such status
+  session.hear(R"({"seq":3,"do":"beat","seen":1})", false, now_ + 1s);
+  EXPECT_TRUE(session.fresh(1, now_ + 1s));
+  EXPECT_FALSE(session.fresh(0, now_ + 1s));
+  EXPECT_FALSE(session.fresh(1, now_ + 1s + Duration(1)));
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_NE(next(session).find("not_fresh"), std::string::npos);
+  }
+  EXPECT_NE(next(session).find("accepted"), std::string::npos);
+  now_ += 1500ms;
+  session.hear(R"({"seq":4,"do":"beat","seen":1})", false, now_);  // it was held up on its way
+  EXPECT_NE(next(session).find("not_fresh"), std::string::npos);
+  EXPECT_EQ(hub_.refusals().of(Verdict::kNotFresh), 3U);
+}
+
+TEST_F(HubTest, ARosClientIsFreshByThePingThatItAnswers) {
+  Session& session = hub_.came(ana_, true, now_);
+  session.alive(1, now_);
+  EXPECT_FALSE(session.fresh(0, now_));
+  session.pinged(1, now_);
+  session.alive(1, now_ + 1s + Duration(1));
+  EXPECT_FALSE(session.fresh(0, now_ + 1s + Duration(1)));
+  session.pinged(2, now_ + 2s);
+  session.alive(2, now_ + 3s);
+  EXPECT_TRUE(session.fresh(0, now_ + 4s));
+  EXPECT_FALSE(session.fresh(0, now_ + 4s + Duration(1)));
 }
 
 TEST_F(HubTest, ShowsLayersToEveryPageOnce) {
@@ -216,6 +315,24 @@ TEST_F(HubTest, ShowsLayersToEveryPageOnce) {
   hub_.show({.name = LayerName::kScan, .at = now_, .points = {{1, 2}}, .heading_rad = 0.0});
   EXPECT_EQ(next(session), R"({"type":"layer","name":"scan","age_s":0,"points_m":[[1,2]]})");
   EXPECT_EQ(next(session), "");
+}
+
+TEST_F(HubTest, ShowsALayerFiveTimesASecondAtMostAndToTheCentimetre) {
+  Session& session = hub_.came(ana_, false, now_);
+  (void)next(session);
+  (void)next(session);
+  int scans = 0;
+  for (int i = 0; i < 100; ++i) {
+    hub_.show({.name = LayerName::kScan, .at = now_, .points = {{1.23456, -0.001}}, .heading_rad = 0.0});
+    const std::string text = next(session);
+    scans += text.starts_with(R"({"type":"layer","name":"scan")") ? 1 : 0;
+    EXPECT_TRUE(scans != 1 || text.empty() || text.find("[[1.23,0]]") != std::string::npos ||
+                text.find("[[1.23,-0]]") != std::string::npos)
+        << text;
+    now_ += 10ms;
+  }
+  EXPECT_EQ(scans, 5);
+  hub_.show({.name = LayerName::kPeople, .at = now_, .points = {}, .heading_rad = 0.0});
 }
 
 }  // namespace

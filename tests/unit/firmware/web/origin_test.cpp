@@ -43,6 +43,21 @@ TEST(Origin, KnowsThisMachinesNames) {
   }
 }
 
+TEST(Origin, KnowsItsOwnHosts) {
+  const std::vector<std::string> others{"http://Tablet:8000", "https://robot.example"};
+  for (const char* host : {"192.0.2.1", "192.0.2.1:8080", "[fe80::1]:8080", "[::1]", "localhost:8080", "robot",
+                           "ROBOT:1", "robot.local:8080", "tablet", "tablet:1", "robot.example"}) {
+    EXPECT_TRUE(own_host(host, "Robot", others)) << host;
+  }
+  for (const char* host :
+       {"", ":8080", "evil.example", "robot.evil.example", "robot.local.evil.example", "192.0.2.1.evil.example",
+        "1.2.3", "[]", "[evil]", "localhost.", "local", "evil.example:localhost"}) {
+    EXPECT_FALSE(own_host(host, "Robot", others)) << host;
+  }
+  EXPECT_FALSE(own_host("", "", {}));
+  EXPECT_FALSE(own_host(".local", "", {}));
+}
+
 TEST(Cookie, IsFoundByItsWholeNameOnce) {
   EXPECT_EQ(cookie_value("ivo=abc", "ivo"), "abc");
   EXPECT_EQ(cookie_value("a=1; ivo=abc; b=2", "ivo"), "abc");

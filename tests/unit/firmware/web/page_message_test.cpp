@@ -21,7 +21,7 @@ T read(std::string_view text) {
 bool malformed(std::string_view text) { return page_message(text).verdict == Verdict::kMalformed; }
 
 TEST(PageMessage, SaysWhatIsAskedFor) {
-  (void)read<Beat>(R"({"seq":7,"do":"beat"})");
+  EXPECT_EQ(read<Beat>(R"({"seq":7,"do":"beat","seen":9})").seen, 9U);
   (void)read<Stop>(R"( { "do" : "stop", "seq" : 7 } )");
   (void)read<End>(R"({"seq":7,"do":"end"})");
   (void)read<Init>(R"({"seq":7,"do":"init"})");
@@ -32,7 +32,8 @@ TEST(PageMessage, SaysWhatIsAskedFor) {
   EXPECT_EQ(read<Replan>(R"({"seq":7,"do":"replan","areas_revision":4294967295})").areas_revision, 4294967295U);
   EXPECT_EQ(read<Enough>(R"({"seq":7,"do":"enough","plan":2})").plan, 2U);
   EXPECT_EQ(read<Accept>(R"({"seq":7,"do":"accept","plan":3})").plan, 3U);
-  EXPECT_EQ(read<Start>(R"({"seq":7,"do":"start","question":4})").question, 4U);
+  EXPECT_EQ(read<Start>(R"({"seq":7,"do":"start","question":4,"seen":5})").question, 4U);
+  EXPECT_EQ(read<Start>(R"({"seq":7,"do":"start","question":4,"seen":5})").seen, 5U);
   EXPECT_EQ(read<ClearFault>(R"({"seq":7,"do":"clear_fault","question":5})").question, 5U);
   EXPECT_EQ(read<Found>(R"({"seq":7,"do":"found","agent":1})").agent, 1);
   EXPECT_EQ(read<RemoveArea>(R"({"seq":7,"do":"area.remove","slot":31})").slot, 31);
@@ -65,21 +66,25 @@ TEST(PageMessage, IsMalformedWithoutItsKeysOrWithMore) {
                            "\"beat\"",
                            "{}",
                            R"({"seq":7})",
-                           R"({"do":"beat"})",
+                           R"({"do":"beat","seen":9})",
                            R"({"seq":7,"do":"dance"})",
-                           R"({"seq":7,"do":"beat","x":1})",
+                           R"({"seq":7,"do":"beat","seen":9,"x":1})",
+                           R"({"seq":7,"do":"beat"})",
+                           R"({"seq":7,"do":"beat","seen":-1})",
+                           R"({"seq":7,"do":"start","question":4})",
+                           R"({"seq":7,"do":"start","seen":4})",
                            R"({"seq":7,"do":"accept"})",
                            R"({"seq":7,"do":"accept","question":1})",
-                           R"({"seq":7,"do":"beat"}x)",
-                           R"({"seq":7,"do":"beat")",
+                           R"({"seq":7,"do":"beat","seen":9}x)",
+                           R"({"seq":7,"do":"beat","seen":9)",
                            R"({"seq":7,"do":7})",
-                           R"({"seq":"7","do":"beat"})",
-                           R"({"seq":7,"seq":7,"do":"beat"})",
-                           R"({"seq":7,"do":"beat","do":"beat"})",
-                           R"({"seq":0,"do":"beat"})",
-                           R"({"seq":-1,"do":"beat"})",
-                           R"({"seq":7.0,"do":"beat"})",
-                           R"({"seq":4294967296,"do":"beat"})",
+                           R"({"seq":"7","do":"beat","seen":9})",
+                           R"({"seq":7,"seq":7,"do":"beat","seen":9})",
+                           R"({"seq":7,"do":"beat","seen":9,"do":"beat"})",
+                           R"({"seq":0,"do":"beat","seen":9})",
+                           R"({"seq":-1,"do":"beat","seen":9})",
+                           R"({"seq":7.0,"do":"beat","seen":9})",
+                           R"({"seq":4294967296,"do":"beat","seen":9})",
                            R"({"seq":7,"do":"found","agent":8})",
                            R"({"seq":7,"do":"found","agent":null})",
                            R"({"seq":7,"do":"area.remove","slot":32})",
@@ -112,7 +117,7 @@ TEST(PageMessage, IsMalformedWithAnAreaThatIsNone) {
 }
 
 TEST(PageMessage, IsTooLargeBeyondItsLimit) {
-  const std::string text = R"({"seq":7,"do":"beat"})";
+  const std::string text = R"({"seq":7,"do":"beat","seen":9})";
   EXPECT_EQ(page_message(text + std::string(PageMessage::kLongest - text.size(), ' ')).verdict, Verdict::kAccepted);
   EXPECT_EQ(page_message(text + std::string(PageMessage::kLongest - text.size() + 1, ' ')).verdict, Verdict::kTooLarge);
 }
@@ -120,7 +125,11 @@ TEST(PageMessage, IsTooLargeBeyondItsLimit) {
 class PageCheckTest : public testing::Test {
  protected:
   Verdict judge(int sequence, const std::string& what = "beat") {
-    return check_.judge("{\"seq\":" + std::to_string(sequence) + ",\"do\":\"" + what + "\"}", now_).verdict;
+    return check_
+        .judge(
+            "{\"seq\":" + std::to_string(sequence) + ",\"do\":\"" + what + (what == "beat" ? "\",\"seen\":1}" : "\"}"),
+            now_)
+        .verdict;
   }
 
   Instant now_{100s};

@@ -32,35 +32,93 @@ TEST(PairingCode, HasZerosInFront) {
   EXPECT_EQ(code.digits(), "000000");
 }
 
+const ClientAddress kAna{.group = "192.0.2.1", .this_machine = false};
+const ClientAddress kBen{.group = "192.0.2.2", .this_machine = false};
+const ClientAddress kHere{.group = "127.0.0.1", .this_machine = true};
+
+ClientAddress stranger(int number) { return {.group = std::to_string(number), .this_machine = false}; }
+
+bool is_right(const PairingCode::Outcome& outcome) { return std::holds_alternative<PairingCode::Right>(outcome); }
+
+/// Until it locks: for how long.
+int guess_until_locked(PairingCode& code, Instant now) {
+  for (int i = 1; i < PairingCode::kTries; ++i) {
+    EXPECT_EQ(std::get<PairingCode::Wrong>(code.test("none", kAna, now)).left, PairingCode::kTries - i);
+  }
+  const auto locked = std::get<PairingCode::Locked>(code.test("none", kAna, now));
+  EXPECT_TRUE(locked.anew);
+  return locked.wait_s;
+}
+
 TEST(PairingCode, CountsOnce) {
   PairingCode code(counting());
   const std::string digits = code.digits();
-  EXPECT_TRUE(std::holds_alternative<PairingCode::Right>(code.test(digits, kCodeStart)));
+  EXPECT_TRUE(is_right(code.test(digits, kAna, kCodeStart)));
   EXPECT_NE(code.digits(), digits);
-  EXPECT_TRUE(std::holds_alternative<PairingCode::Wrong>(code.test(digits, kCodeStart)));
+  EXPECT_TRUE(std::holds_alternative<PairingCode::Wrong>(code.test(digits, kAna, kCodeStart)));
 }
 
-TEST(PairingCode, LocksForHalfAMinuteAfterFiveWrongOnes) {
+TEST(PairingCode, LocksOutWhoGuessesAndNobodyElse) {
+  PairingCode code(counting());
+  const std::string digits = code.digits();
+  EXPECT_EQ(guess_until_locked(code, kCodeStart), 30);
+  const auto again = std::get<PairingCode::Locked>(code.test(digits, kAna, kCodeStart + 29s));
+  EXPECT_EQ(again.wait_s, 1);
+  EXPECT_FALSE(again.anew);
+  EXPECT_EQ(code.digits(), digits);
+  EXPECT_TRUE(is_right(code.test(digits, kBen, kCodeStart)));
+  EXPECT_TRUE(is_right(code.test(code.digits(), kAna, kCodeStart + 30s)));
+}
+
+TEST(PairingCode, LocksForTwiceAsLongEachTimeUpToAQuarterOfAnHour) {
+  PairingCode code(counting());
+  Instant now = kCodeStart;
+  for (const int wait_s : {30, 60, 120, 240, 480, 900, 900}) {
+    EXPECT_EQ(guess_until_locked(code, now), wait_s);
+    now += std::chrono::seconds(wait_s);
+  }
+}
+
+TEST(PairingCode, ForgivesAfterARightOneAndAfterAnHour) {
+  PairingCode code(counting());
+  EXPECT_EQ(guess_until_locked(code, kCodeStart), 30);
+  EXPECT_TRUE(is_right(code.test(code.digits(), kAna, kCodeStart + 30s)));
+  EXPECT_EQ(guess_until_locked(code, kCodeStart + 30s), 30);
+  EXPECT_EQ(guess_until_locked(code, kCodeStart + 30s + PairingCode::kSpan), 30);
+}
+
+TEST(PairingCode, IsClosedAfterAHundredWrongOnesOfAllUntilTheHourIsOver) {
   PairingCode code(counting());
   const std::string before = code.digits();
-  for (const int left : {4, 3, 2, 1}) {
-    EXPECT_EQ(std::get<PairingCode::Wrong>(code.test("none", kCodeStart)).left, left);
+  for (int i = 1; i < PairingCode::kWrongOfAll; ++i) {
+    EXPECT_TRUE(std::holds_alternative<PairingCode::Wrong>(code.test("none", stranger(i), kCodeStart)));
   }
-  EXPECT_EQ(std::get<PairingCode::Locked>(code.test("none", kCodeStart)).wait_s, 30);
+  EXPECT_TRUE(std::get<PairingCode::Closed>(code.test("none", stranger(100), kCodeStart + 60s)).anew);
   EXPECT_NE(code.digits(), before);
-  const std::string digits = code.digits();
-  EXPECT_EQ(std::get<PairingCode::Locked>(code.test(digits, kCodeStart + 29s)).wait_s, 1);
-  EXPECT_TRUE(std::holds_alternative<PairingCode::Right>(code.test(digits, kCodeStart + 30s)));
+  const auto closed = std::get<PairingCode::Closed>(code.test(code.digits(), kBen, kCodeStart + 61s));
+  EXPECT_EQ(closed.wait_s, 3539);
+  EXPECT_FALSE(closed.anew);
+  EXPECT_TRUE(is_right(code.test(code.digits(), kHere, kCodeStart + 61s)));
+  EXPECT_TRUE(is_right(code.test(code.digits(), kBen, kCodeStart + PairingCode::kSpan)));
 }
 
-TEST(PairingCode, ForgivesAfterARightOne) {
+TEST(PairingCode, IsNotClosedByThisMachine) {
   PairingCode code(counting());
-  for (int round = 0; round < 3; ++round) {
-    for (int i = 0; i < 4; ++i) {
-      EXPECT_TRUE(std::holds_alternative<PairingCode::Wrong>(code.test("", kCodeStart)));
-    }
-    EXPECT_TRUE(std::holds_alternative<PairingCode::Right>(code.test(code.digits(), kCodeStart)));
+  Instant now = kCodeStart;
+  for (int i = 0; i < 2 * PairingCode::kWrongOfAll; ++i) {
+    (void)code.test("none", kHere, now);
+    now += 1s;
   }
+  EXPECT_TRUE(is_right(code.test(code.digits(), kBen, now)));
+}
+
+TEST(PairingCode, RemembersTheLastSixtyFourAddresses) {
+  PairingCode code(counting());
+  for (int i = 0; i <= static_cast<int>(PairingCode::kAddresses); ++i) {
+    EXPECT_EQ(std::get<PairingCode::Wrong>(code.test("none", stranger(i), kCodeStart)).left, 4);
+  }
+  EXPECT_EQ(std::get<PairingCode::Wrong>(code.test("none", stranger(1), kCodeStart)).left, 3);
+  EXPECT_EQ(std::get<PairingCode::Wrong>(code.test("none", stranger(0), kCodeStart)).left, 4);
 }
 
 TEST(Secrets, AreComparedWhole) {

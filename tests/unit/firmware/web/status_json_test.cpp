@@ -14,7 +14,7 @@ using std::chrono_literals::operator""ms;
 using std::chrono_literals::operator""s;
 
 Json parsed_status(const View& view, const Desk& desk, Instant now) {
-  Result<Json> json = parse_strict_json(status_text(common_status(view, desk, now), true), "status", "a status");
+  Result<Json> json = parse_strict_json(status_text(common_status(view, desk, now), true, 7), "status", "a status");
   EXPECT_TRUE(json.ok()) << common_status(view, desk, now);
   return json.ok() ? json.value() : Json();
 }
@@ -55,6 +55,7 @@ TEST(StatusText, SaysWhatIsKnown) {
   EXPECT_TRUE(agents.elements[1].member("path_ended")->flag);
   EXPECT_EQ(json.member("operator")->kind, Json::Kind::kNull);
   EXPECT_TRUE(json.member("start_fresh")->flag);
+  EXPECT_EQ(json.member("n")->count, 7U);
 }
 
 TEST(StatusText, SaysWhoIsThereAndWhatWasRefused) {

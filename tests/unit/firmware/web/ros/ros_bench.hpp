@@ -23,9 +23,13 @@ struct ToldCommands final : RosCommands {
     return static_cast<std::uint32_t>(requests.size());
   }
   void show(const Layer& layer) override { layers.push_back(layer); }
+  [[nodiscard]] bool may_operate() const override { return an_operators; }
+  void refused(Verdict verdict) override { refusals.push_back(verdict); }
 
   std::vector<Request> requests;
   std::vector<Layer> layers;
+  std::vector<Verdict> refusals;
+  bool an_operators = true;
 };
 
 struct RosBench {

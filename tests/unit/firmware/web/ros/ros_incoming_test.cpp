@@ -86,18 +86,22 @@ TEST(RosIncoming, APersonIsWhereATrackerSays) {
             "/ivo/person/IVO/pose: msg: is about a robot; expected a person, of the robot comes /ivo/robot/pose");
 }
 
-TEST(RosIncoming, TheRobotsPoseComesWithItsUncertaintyAndIsShown) {
+TEST(RosIncoming, TheRobotsPoseIsShownAndNotSaidToTheController) {
   RosBench bench;
   bench.publish("/ivo/robot/pose", localised(R"({"sec":1000098,"nanosec":0})"));
-  const auto& position = std::get<Position>(bench.commands.requests.front());
-  EXPECT_EQ(position.agent, 0);
-  EXPECT_EQ(position.pose.point(), (Point{1, 1}));
-  EXPECT_NEAR(position.sigma_m, 0.3, 1e-12);
-  EXPECT_NEAR(position.sigma_heading_rad, 0.1, 1e-12);
-  EXPECT_NEAR(position.age_s, 2.0, 1e-6);
+  EXPECT_TRUE(bench.commands.requests.empty());
   ASSERT_EQ(bench.commands.layers.size(), 1U);
+  EXPECT_NEAR(seconds(bench.now - bench.commands.layers.front().at), 2.0, 1e-6);
   EXPECT_EQ(bench.commands.layers.front().name, LayerName::kRobotPose);
   EXPECT_EQ(bench.commands.layers.front().points, (std::vector<Point>{{1, 1}}));
+}
+
+TEST(RosIncoming, TheRobotsPoseComesFromWhoMayOperate) {
+  RosBench bench;
+  bench.commands.an_operators = false;
+  EXPECT_EQ(bench.complaint_about("/ivo/robot/pose", localised(R"({"sec":0,"nanosec":0})")),
+            "/ivo/robot/pose: not_allowed: comes with a viewer's token; expected an operator's");
+  EXPECT_EQ(bench.commands.refusals, (std::vector<Verdict>{Verdict::kNotAllowed}));
 }
 
 TEST(RosIncoming, PosesThatAreOldOrNoneAreRefused) {
@@ -118,7 +122,7 @@ TEST(RosIncoming, PosesThatAreOldOrNoneAreRefused) {
 TEST(RosIncoming, PosesMoreOftenThanAnybodyNeedsArePassedOver) {
   RosBench bench;
   for (int i = 0; i < 100; ++i) {
-    bench.publish("/ivo/robot/pose", localised(R"({"sec":0,"nanosec":0})"));
+    bench.publish("/ivo/person/Ana_B/pose", R"({"pose":{"position":{"x":10.5,"y":21,"z":0}}})");
     bench.now += std::chrono::milliseconds(10);
   }
   EXPECT_GE(bench.commands.requests.size(), 10U);

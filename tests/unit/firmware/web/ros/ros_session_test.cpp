@@ -13,9 +13,99 @@ TEST(RosSession, ASubscriberHasTheNewestValueAtOnceAndThenWhatIsNew) {
   EXPECT_EQ(bench.take().size(), 1U);
   EXPECT_TRUE(bench.take().empty());
   bench.put(console::Document::kMap, std::string(12, '\1'));
+  bench.now += std::chrono::seconds(2);
   EXPECT_EQ(bench.take().size(), 1U);
+  bench.now += std::chrono::seconds(2);
   bench.hear(R"({"op":"subscribe","id":"b","topic":"/ivo/map"})");
   EXPECT_EQ(bench.take().size(), 1U);
+}
+
+TEST(RosSession, WhoSubscribesAgainAndAgainIsSentNoMore) {
+  RosBench bench;
+  std::size_t sent = 0;
+  for (int i = 0; i < 100; ++i) {
+    bench.hear(R"({"op":"subscribe","id":)" + std::to_string(i % 7) + R"(,"topic":"/ivo/map"})");
+    sent += bench.take().size();
+    if (i % 2 == 0) {
+      bench.hear(R"({"op":"unsubscribe","topic":"/ivo/map"})");
+      bench.take();
+    }
+  }
+  EXPECT_EQ(sent, 1U);
+  bench.now += std::chrono::seconds(2);
+  EXPECT_EQ(bench.take().size(), 1U);
+}
+
+TEST(RosSession, AnImpatientSubscriptionDoesNotWaitForTheOneBefore) {
+  RosBench bench;
+  bench.hear(R"({"op":"subscribe","topic":"/ivo/pose/IVO","throttle_rate":3600000})");
+  EXPECT_EQ(bench.take().size(), 1U);
+  bench.hear(R"({"op":"subscribe","topic":"/ivo/pose/IVO"})");
+  bench.now += std::chrono::seconds(1);
+  EXPECT_EQ(bench.take().size(), 1U);
+}
+
+TEST(RosSession, GridsWaitWhenTheyAreTooLargeForOneTurn) {
+  RosBench bench;
+  bench.put(console::Document::kMission,
+            R"({"name":"field","map":{"width_px":3000,"height_px":2000,"resolution_m":0.5,"origin_m":[10,20]},
+                "cells":{"columns":2,"rows":2,"cell_m":1},"classes":[{"name":"wall","obstacle":true}],
+                "agents":[{"name":"IVO","kind":"robot"}]})");
+  bench.put(console::Document::kMap, std::string(6'000'000, '\0'));
+  for (const char* topic : {"/ivo/map", "/ivo/no_go", "/ivo/pose/IVO"}) {
+    bench.hear(std::string(R"({"op":"subscribe","topic":")") + topic + "\"}");
+  }
+  for (int turn = 0; turn < 2; ++turn) {
+    const std::vector<Frame> frames = bench.session.take(bench.now);
+    ASSERT_FALSE(frames.empty());
+    EXPECT_GT(frames.front().bytes.size(), RosFeeds::kMostBytes);
+    EXPECT_EQ(frames.size(), 1U);
+  }
+  EXPECT_EQ(within(bench.only(), "topic").text, "/ivo/pose/IVO");
+}
+
+TEST(RosSession, AStopIsHeardWhateverElseIsSaid) {
+  RosBench bench;
+  bench.hear(R"({"op":"set_level","level":"none"})");
+  for (int i = 0; i < 1000; ++i) {
+    bench.publish("/ivo/button/init", "{}");
+  }
+  const std::size_t before = bench.commands.requests.size();
+  bench.hear(R"({"op":"call_service","service":"/ivo/stop"})");
+  ASSERT_EQ(bench.commands.requests.size(), before + 1);
+  EXPECT_TRUE(std::holds_alternative<Stop>(bench.commands.requests.back()));
+  for (int i = 0; i < 1000; ++i) {
+    bench.hear(R"({"op":"call_service","service":"/ivo/stop"})");
+  }
+  EXPECT_EQ(bench.commands.requests.size(), before + RosPace::kStopsPerSecond);
+  bench.hear(R"({"op":"publish","topic":"/ivo/button/init","msg":{"stop":0}})");
+  EXPECT_EQ(bench.commands.requests.size(), before + RosPace::kStopsPerSecond);
+}
+
+TEST(RosSession, AStopNeedsNoMission) {
+  RosBench bench;
+  bench.view.documents[0] = {};
+  bench.hear(R"({"op":"call_service","service":"/ivo/stop"})");
+  EXPECT_EQ(bench.commands.requests.size(), 1U);
+}
+
+TEST(RosSession, WhatIsRefusedIsCounted) {
+  RosBench bench;
+  bench.hear("nonsense");
+  bench.hear(std::string(RosSession::kMostBytes + 1, ' '));
+  bench.hear(R"({"op":"call_service","service":"/nothing"})");
+  EXPECT_EQ(bench.commands.refusals,
+            (std::vector<Verdict>{Verdict::kMalformed, Verdict::kTooLarge, Verdict::kMalformed}));
+}
+
+TEST(RosSession, AComplaintShowsTheBeginningOfALongText) {
+  RosBench bench;
+  bench.hear(R"({"op":"set_level","level":")" + std::string(100'000, 'a') + "\"}");
+  EXPECT_LT(bench.complaint().size(), 400U);
+  bench.publish("/scan", R"({"header":{"frame_id":")" + std::string(100'000, 'a') + "\"}}");
+  EXPECT_LT(bench.complaint().size(), 600U);
+  bench.publish("/people", R"({"header":{"frame_id":")" + std::string(100'000, 'a') + "\"}}");
+  EXPECT_LT(bench.complaint().size(), 400U);
 }
 
 TEST(RosSession, AThrottledTopicWaitsAndThenHasTheNewestValueAlone) {
