@@ -112,8 +112,11 @@ Error no_json(std::string_view text, std::size_t byte, const std::string& path, 
     --at;  // it may have read a part of a word
   }
   const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
-  const std::string fault =
-      at == text.size() ? "ends too early" : "\"" + std::string(text.substr(at, kShown)) + "\" cannot stand here";
+  // A complaint is one line, and UTF-8 whatever the text is.
+  std::string shown(text.substr(at, kShown));
+  std::replace_if(
+      shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  const std::string fault = at == text.size() ? "ends too early" : "\"" + shown + "\" cannot stand here";
   return Error{path + ":" + std::to_string(line) + ": not JSON: " + fault + "; expected " + what};
 }
 

@@ -22,7 +22,7 @@ from mission_files import BUILD_DIR, IVO, MISSION, write_mission
 
 CONSOLE = os.path.join(BUILD_DIR, "ivo-console")
 CLIENT = os.path.join(HERE, "ros_client")
-PATIENCE_S = 60
+PATIENCE_S = 20
 # A map of ROS whose frame begins elsewhere: free, with an occupied corner and an unknown one.
 SIDE_PX = 48
 ORIGIN = (-3.0, 7.0)
@@ -46,10 +46,12 @@ class RosClient:
     def __init__(self, url):
         packages = npm_packages.install(CLIENT)
         self.process = subprocess.Popen(["node", os.path.join(CLIENT, "client.js"), packages, url], stdin=subprocess.PIPE,
-                                        stdout=subprocess.PIPE, text=True)
+                                        stdout=subprocess.PIPE,
+                                        stderr=subprocess.DEVNULL, text=True)
         self.heard = []
         self.lines = queue.Queue()
-        threading.Thread(target=self.read, daemon=True).start()
+        self.reader = threading.Thread(target=self.read, daemon=True)
+        self.reader.start()
 
     def read(self):
         for line in self.process.stdout:
@@ -58,7 +60,9 @@ class RosClient:
 
     def close(self):
         self.process.stdin.close()
-        self.process.wait(PATIENCE_S)
+        self.reader.join(PATIENCE_S)
+        self.process.kill()
+        self.process.wait()
         self.process.stdout.close()
 
     def do(self, what, **fields):
@@ -77,6 +81,8 @@ class RosClient:
                     return said
                 self.heard.append(said)
             waiting = [self.lines.get(timeout=max(0.1, until - time.monotonic()))]
+            if waiting[0]["event"] == "end":
+                raise EOFError("the client ended")
 
     def message(self, topic, right=lambda msg: True):
         return self.wait("message", lambda said: said["topic"] == topic and right(said["msg"]))["msg"]
@@ -105,13 +111,22 @@ class Ros(unittest.TestCase):
         write_ros_map(self.folder)
         self.controller = self.start([IVO, "run", write_mission(self.folder, mission), "--console", self.socket, "--no-real-time",
                                       "--out", os.path.join(self.folder, "out")], stdout=subprocess.DEVNULL)
-        server = self.start([CONSOLE, "--socket", self.socket, "--port", "0", "--state", self.state], stdout=subprocess.PIPE, text=True)
+        page = os.path.join(self.folder, "page")  # the page is another test's
+        os.makedirs(page)
+        with open(os.path.join(page, "index.html"), "w", encoding="utf-8") as file:
+            file.write("<!DOCTYPE html>")
+        server = self.start([CONSOLE, "--socket", self.socket, "--port", "0", "--state", self.state, "--web", page], stdout=subprocess.PIPE, text=True)
         self.addCleanup(server.stdout.close)
-        place = None
-        while place is None:
-            place = re.search(r"listening at http://([^/]+)/", server.stdout.readline())
+        place, line = None, "before its first line"
+        while place is None and line:
+            line = server.stdout.readline()
+            place = re.search(r"listening at http://([^/]+)/", line)
+        self.assertIsNotNone(place, "the server ended")
         self.place = place.group(1)
-        threading.Thread(target=server.stdout.read, daemon=True).start()
+        reader = threading.Thread(target=server.stdout.read, daemon=True)
+        reader.start()
+        self.addCleanup(reader.join)
+        self.addCleanup(server.terminate)
 
     def start(self, command, **options):
         process = subprocess.Popen(command, stdin=subprocess.DEVNULL, **options)

@@ -114,7 +114,7 @@ RosHeard button(JsonReading& reading, RosAsk what, std::optional<std::size_t> ag
   if (!pressed(reading, message) || !reading.ok()) {
     return {};
   }
-  const Result<Request> request = ros_request(what, agent, setting.view, setting.mission);
+  const Result<Request> request = ros_request(what, agent, setting.view, setting.mission, setting.accepted_plan);
   if (!request) {
     reading.fault("", request.error().message);
     return {};

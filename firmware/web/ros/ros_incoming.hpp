@@ -25,6 +25,7 @@ struct RosSetting {
   const View& view;
   const RosMission& mission;
   std::uint32_t claimed_slots = 0;  ///< a bit a slot: areas that were put and are not among the view's yet
+  std::uint32_t accepted_plan = 0;  ///< as of ros_request()
   Instant now{};
   Duration since_epoch{};
 };

@@ -12,8 +12,8 @@ std::uint8_t likely_finder(const RosMission& mission) {
   return 0;
 }
 
-Result<Request> start_of(const console::Status& status) {
-  if (status.accepted == 0) {
+Result<Request> start_of(const console::Status& status, std::uint32_t accepted_plan) {
+  if (status.accepted == 0 && (accepted_plan == 0 || accepted_plan != status.plan_number)) {
     return Error{"the plan is not accepted; expected /ivo/accept first"};
   }
   if (status.asks != console::Asks::kConsent) {
@@ -24,8 +24,8 @@ Result<Request> start_of(const console::Status& status) {
 
 }  // namespace
 
-Result<Request> ros_request(RosAsk what, std::optional<std::size_t> agent, const View& view,
-                            const RosMission& mission) {
+Result<Request> ros_request(RosAsk what, std::optional<std::size_t> agent, const View& view, const RosMission& mission,
+                            std::uint32_t accepted_plan) {
   switch (what) {
     case RosAsk::kInit:
       return Request(Init{});
@@ -64,7 +64,7 @@ Result<Request> ros_request(RosAsk what, std::optional<std::size_t> agent, const
     case RosAsk::kClearFault:
       return Request(ClearFault{status.question});
     default:
-      return start_of(status);
+      return start_of(status, accepted_plan);
   }
 }
 

@@ -28,8 +28,9 @@ enum class RosAsk : std::uint8_t {
   kKeepControl,
 };
 
-/// An error says why that cannot be asked now.
+/// An error says why that cannot be asked now. `accepted_plan`: the number of a plan that was accepted, as the
+/// controller has answered, though its status may not say so yet; 0: none.
 [[nodiscard]] Result<Request> ros_request(RosAsk what, std::optional<std::size_t> agent, const View& view,
-                                          const RosMission& mission);
+                                          const RosMission& mission, std::uint32_t accepted_plan);
 
 }  // namespace ivo::firmware::web

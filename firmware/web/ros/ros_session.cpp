@@ -61,6 +61,10 @@ bool right_type(const Topic<Incoming>& topic, const std::string& type) {
 }  // namespace
 
 const RosMission* RosSession::mission() {
+  if (view_.connections != connections_) {
+    connections_ = view_.connections;
+    accepted_plan_ = 0;
+  }
   const KnownDocument& document = view_.document(console::Document::kMission);
   if (document.revision != mission_revision_) {
     mission_revision_ = document.revision;
@@ -216,7 +220,7 @@ void RosSession::hear_publish(const Json& message, const std::string& id, Instan
     refuse(id, name, "the mission is not known yet; expected a controller that is there");
     return;
   }
-  RosSetting setting{view_, *known, 0, now, now.time_since_epoch() + epoch_};
+  RosSetting setting{view_, *known, 0, accepted_plan_, now, now.time_since_epoch() + epoch_};
   for (std::size_t slot = 0; slot < claimed_until_.size(); ++slot) {
     setting.claimed_slots |= now < claimed_until_[slot] ? 1U << slot : 0U;
   }
@@ -303,7 +307,7 @@ void RosSession::hear_call(const Json& message, const std::string& id, Instant n
   if (trigger->token && !agent) {
     return fail("names an agent that is not there; expected a service of /rosapi/services");
   }
-  const Result<Request> request = ros_request(trigger->what, agent, view_, *known);
+  const Result<Request> request = ros_request(trigger->what, agent, view_, *known, accepted_plan_);
   if (!request) {
     ++refused_;
     JsonWriter values;
@@ -316,7 +320,10 @@ void RosSession::hear_call(const Json& message, const std::string& id, Instant n
 
 void RosSession::ask(const Request& request, const std::string& id, const std::string& name, bool service,
                      Instant now) {
-  Pending pending{0, id, name, service, now};
+  Pending pending{0, id, name, service, now, 0};
+  if (const auto* accept = std::get_if<Accept>(&request)) {
+    pending.plan = accept->plan;
+  }
   if (pending_.size() >= kMostPending) {
     finish(pending, Verdict::kTooOften);
     return;
@@ -340,6 +347,7 @@ void RosSession::answered(std::uint32_t ask, Verdict verdict) {
 void RosSession::finish(const Pending& pending, Verdict verdict) {
   const std::string word(name_of(verdict));
   const bool accepted = verdict == Verdict::kAccepted;
+  accepted_plan_ = accepted && pending.plan != 0 ? pending.plan : accepted_plan_;
   if (pending.service) {
     refused_ += accepted ? 0 : 1;
     JsonWriter values;

@@ -54,6 +54,7 @@ class RosSession {
     std::string name;  // of topic or service
     bool service = false;
     Instant at{};
+    std::uint32_t plan = 0;  // that it accepts
   };
 
   [[nodiscard]] const RosMission* mission();
@@ -82,6 +83,8 @@ class RosSession {
   StatusLevel level_ = StatusLevel::kError;
   std::vector<Pending> pending_;
   std::array<Instant, console::kAreaSlots> claimed_until_{};  // put, and perhaps not among the view's areas yet
+  std::uint32_t accepted_plan_ = 0;
+  std::uint64_t connections_ = 0;  // of the view: another run counts its plans anew
   std::vector<Frame> frames_;
   std::uint64_t refused_ = 0;
   std::uint64_t dropped_ = 0;

@@ -38,7 +38,7 @@ ros.onAny((name, status) => {
 
 const actions = {
   subscribe({ topic, type, compression, throttle_rate }) {
-    const heard = new ROSLIB.Topic({ ros, name: topic, messageType: type, compression, throttle_rate, reconnect_on_close: false });
+    const heard = new ROSLIB.Topic({ ros, name: topic, messageType: type, compression, throttle_rate });
     heard.subscribe((msg) => say("message", { topic, msg }));
     subscribed.set(topic, heard);
   },
@@ -47,7 +47,7 @@ const actions = {
   },
   publish({ topic, type, msg }) {
     if (!published.has(topic)) {
-      published.set(topic, new ROSLIB.Topic({ ros, name: topic, messageType: type, reconnect_on_close: false }));
+      published.set(topic, new ROSLIB.Topic({ ros, name: topic, messageType: type }));
     }
     published.get(topic).publish(new ROSLIB.Message(msg));
   },
@@ -81,5 +81,5 @@ lines.on("line", (line) => {
   const command = JSON.parse(line);
   actions[command.do](command);
 });
-lines.on("close", () => ros.close());
+lines.on("close", () => process.exit(0));
 ros.connect(url);

@@ -68,6 +68,20 @@ TEST(RosServices, NothingStartsBeforeThePlanIsAcceptedAndConsentIsAskedFor) {
   EXPECT_EQ(std::get<Start>(bench.commands.requests.front()).question, 3U);
 }
 
+TEST(RosServices, APlanThatWasJustAcceptedMayStartBeforeAStatusSaysSo) {
+  RosBench bench;
+  bench.view.status->asks = console::Asks::kConsent;
+  call(bench, "/ivo/accept");
+  bench.session.answered(1, Verdict::kAccepted);
+  (void)answer(bench);
+  bench.view.status->plan_number += 1;
+  call(bench, "/ivo/start");
+  EXPECT_FALSE(within(answer(bench), "success").flag);
+  bench.view.status->plan_number -= 1;
+  call(bench, "/ivo/start");
+  EXPECT_TRUE(std::holds_alternative<Start>(bench.commands.requests.back()));
+}
+
 TEST(RosServices, TheFinderIsThePersonUnlessSaid) {
   RosBench bench;
   call(bench, "/ivo/found");

@@ -90,6 +90,8 @@ TEST(RosSession, OperationsThatAreNoneAreRefusedWithTheirId) {
   EXPECT_EQ(bench.complaint(), "op: is missing or no text; expected an operation of rosbridge");
   bench.hear("[1,");
   EXPECT_EQ(bench.complaint(), "message:1: not JSON: ends too early; expected an operation of rosbridge");
+  bench.hear("{\"op\":\xE1\n}");
+  EXPECT_EQ(bench.complaint(), "message:1: not JSON: \"??}\" cannot stand here; expected an operation of rosbridge");
   bench.hear(R"({"op":"subscribe","topic":7})");
   EXPECT_EQ(bench.complaint(), "subscribe: topic: is no text; expected text");
   bench.hear(R"({"op":"subscribe","id":[1],"topic":"/tf"})");
