@@ -12,7 +12,7 @@ namespace ivo::firmware::web {
 class ConnectionLimits {
  public:
   static constexpr int kMost = 64;
-  static constexpr int kMostOfOne = 16;     ///< a browser opens six, and a WebSocket
+  static constexpr int kMostOfOne = 32;  ///< a browser opens six, and a WebSocket; a few of them may share an address
   static constexpr int kOfThisMachine = 8;  ///< of kMost, kept for it
 
   [[nodiscard]] bool allows(const ClientAddress& address) const {

@@ -38,15 +38,15 @@ class Control(ConsoleTest):
 
     def test_the_controls_are_asked_for_kept_and_given(self):
         ana, luis = self.ana, self.luis
-        luis.act("take-control", "document.getElementById('act-why').textContent.startsWith('Asked.')")
+        luis.act("take-control", "document.getElementById('act-why').textContent.includes(' is asked.')")
         ana.wait("!document.getElementById('request').hidden")
         self.assertIn("Luis's phone asks for the controls", ana.text("request-text"))
         ana.judge("asked")
         luis.judge("asking")
         ana.press("control-keep")
-        luis.wait("!document.getElementById('act-why').textContent.startsWith('Asked.')")
+        luis.wait("!document.getElementById('act-why').textContent.includes(' is asked.')")
         ana.wait(YOU)
-        luis.act("take-control", "document.getElementById('act-why').textContent.startsWith('Asked.')")
+        luis.act("take-control", "document.getElementById('act-why').textContent.includes(' is asked.')")
         ana.wait("!document.getElementById('request').hidden")
         ana.press("control-give")
         luis.wait(YOU)
@@ -61,7 +61,7 @@ class Control(ConsoleTest):
         self.luis.act("take-control", YOU)
 
     def test_they_go_over_when_the_holder_does_not_answer(self):
-        self.luis.act("take-control", "document.getElementById('act-why').textContent.startsWith('Asked.')")
+        self.luis.act("take-control", "document.getElementById('act-why').textContent.includes(' is asked.')")
         self.luis.wait(YOU)
         self.ana.wait_text("link-operator", "Luis's phone holds the controls")
 
