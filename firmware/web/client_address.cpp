@@ -14,7 +14,7 @@ namespace {
 
 template <class Address>
 Address as(const sockaddr_storage& peer) {
-  Address address;
+  Address address{};
   std::memcpy(&address, &peer, sizeof(address));
   return address;
 }

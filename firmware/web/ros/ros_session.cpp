@@ -44,7 +44,7 @@ std::string name_in(JsonReading& reading, const Json& message, const char* key, 
   if (message.member(key) == nullptr && !required) {
     return {};
   }
-  const std::string name = reading.text(message, "", key);
+  std::string name = reading.text(message, "", key);
   if (name.size() > RosSession::kMostName || (required && name.empty())) {
     reading.fault(
         key, "has " + std::to_string(name.size()) + " bytes; expected 1 to " + std::to_string(RosSession::kMostName));

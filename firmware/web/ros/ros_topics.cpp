@@ -10,10 +10,10 @@ enum class Agents : std::uint8_t { kNone, kOptional, kRequired };
 /// `before` and `after`: the name up to and behind the agent's token.
 template <class What>
 struct TopicRow {
-  What what;
+  What what{};
   std::string_view before;
   std::string_view after;
-  Agents agents;
+  Agents agents{};
   std::string_view type;
 };
 
