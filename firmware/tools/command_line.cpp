@@ -72,9 +72,9 @@ const char* kind_of(Number /*of*/) {
 
 /// A number of the option's type between two ends.
 template <class Number>
-void add_number(CLI::App& command, const std::string& name, std::optional<Number>& number, Number least, Number most,
-                const std::string& what) {
-  command.add_option_function<std::string>(
+CLI::Option* add_number(CLI::App& command, const std::string& name, std::optional<Number>& number, Number least,
+                        Number most, const std::string& what) {
+  return command.add_option_function<std::string>(
       name,
       [&number, name, least, most](const std::string& text) {
         Number value{};
@@ -272,8 +272,9 @@ CLI::App* add_console(CLI::App& app, ConsoleOptions& options) {
   add("refuse", "Disagree: the run ends", ConsoleVerb::kRefuse);
   add_agent(add("found", "The object is found, by AGENT", ConsoleVerb::kFound));
   CLI::App* position = add_agent(add("position", "The person AGENT is at X Y", ConsoleVerb::kPosition));
-  position->add_option("X", options.x_m, "Metres from the map's left border")->required();
-  position->add_option("Y", options.y_m, "Metres from the map's lower border")->required();
+  constexpr double kFarthest_m = 1e6;
+  add_number(*position, "X", options.x_m, 0.0, kFarthest_m, "Metres from the map's left border")->required();
+  add_number(*position, "Y", options.y_m, 0.0, kFarthest_m, "Metres from the map's lower border")->required();
   add("pause", "The robot ramps down and stands until somebody agrees anew", ConsoleVerb::kPause);
   add("stop", "The robot ramps down, the run ends", ConsoleVerb::kStop);
   add("clear", "After a fault: start the drives up again; nothing moves before consent anew", ConsoleVerb::kClear);

@@ -160,8 +160,8 @@ int about_agent(ConsoleClient& client, const Status& status, const ConsoleOption
   }
   console::PoseCommand pose;
   pose.agent = static_cast<std::uint8_t>(agent.value());
-  pose.x_m = options.x_m;
-  pose.y_m = options.y_m;
+  pose.x_m = options.x_m.value_or(0.0);
+  pose.y_m = options.y_m.value_or(0.0);
   return tell(client.report(pose), status);
 }
 

@@ -1,6 +1,7 @@
 // `ivo console`: asks a controller that runs, or tells it something, where it has no terminal.
 #pragma once
 
+#include <optional>
 #include <string>
 
 namespace ivo::firmware {
@@ -27,8 +28,8 @@ struct ConsoleOptions {
   ConsoleVerb verb = ConsoleVerb::kStatus;
   std::string socket = "/run/ivo/console.sock";  ///< the service's
   std::string agent;                             ///< of kFound and kPosition, by name
-  double x_m = 0.0;                              ///< of kPosition
-  double y_m = 0.0;
+  std::optional<double> x_m;                     ///< of kPosition
+  std::optional<double> y_m;
   std::string areas;  ///< GeoJSON of kAreas that takes the place of what is drawn; empty: what is drawn is shown
   bool wait = true;   ///< of kInit and kReplan: until the plan is there
 };
