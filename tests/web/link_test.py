@@ -58,6 +58,16 @@ class Link(ConsoleTest):
         self.ana.wait("document.getElementById('link-operator').textContent === 'You hold the controls'")
         self.goes_on()
 
+    def test_the_old_servers_last_word_is_not_the_new_ones_first(self):
+        """A frame is drawn between the new server's hello, with the same number of the screen, and its first status."""
+        self.ana.js("window.requestAnimationFrame = (draw) => { queueMicrotask(() => draw(performance.now())); return 0; }")
+        self.server.kill()
+        self.server.wait()
+        self.ana.wait_state("no_server")
+        self.start_server()
+        self.ana.wait("document.body.dataset.old === 'no'")
+        self.ana.wait("document.getElementById('link-operator').textContent === 'You hold the controls'")
+
     def test_a_controller_that_was_killed_comes_back_with_plan_and_areas(self):
         ana = self.ana
         ana.press("tab-areas")
@@ -65,7 +75,8 @@ class Link(ConsoleTest):
         ana.wait("document.body.dataset.tool === 'rectangle'")
         ana.browser.drag(ana.place(4, 17), ana.place(20, 26))
         ana.wait("document.querySelector('.area[data-slot=\"0\"]')")
-        ana.press_until("replan-areas", "document.body.dataset.stage === 'plan'")
+        ana.press("replan-areas")
+        ana.wait_stage("plan")
         ana.wait_act("accept")
         ana.start()
         self.moving()

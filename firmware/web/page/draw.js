@@ -7,6 +7,7 @@ import { by_id, on_press, set_text, show } from "./dom.js";
 import { box_of, distance_m, is_simple, rectangle, snapped } from "./geometry.js";
 import { at, corners, map, pixels_per_metre, place_of } from "./map.js";
 import { model } from "./model.js";
+import { no_fling } from "./pointer_drag.js";
 import { purpose_of } from "./purpose.js";
 import { set_view, view } from "./view_state.js";
 import { toast } from "./toast.js";
@@ -78,6 +79,7 @@ sheet.addEventListener("pointermove", (event) => {
   if (event.isPrimary && from !== null) draw_sketch(rectangle(box_of([from, on_map(event)])), true);
 });
 sheet.addEventListener("pointercancel", clear);
+no_fling(sheet);
 sheet.addEventListener("pointerup", (event) => {
   if (!event.isPrimary || !model.documents.mission) return;
   if (view.tool === "position") {

@@ -31,8 +31,9 @@ export function has_controller(model) {
   return model.status?.controller === "connected" || model.status?.controller === "silent";
 }
 
+/// Status 0 is of an earlier connection: its numbers of screens say nothing on this one.
 export function is_operator(model) {
-  return model.link === "open" && model.hello !== null && model.status?.operator?.screen === model.hello.screen;
+  return model.link === "open" && model.hello !== null && model.status?.n > 0 && model.status.operator?.screen === model.hello.screen;
 }
 
 export function agents_of(model) {

@@ -1,10 +1,17 @@
 // A drag by finger, pen or mouse alike, that the map below does not take for its own.
 import { map, place_of } from "./map.js";
 
+/// Chromium takes a drag that ends at speed for a fling, even of what cannot scroll, and gives no click to a tap while it
+/// would last: for 0.7 s after an area was drawn the buttons would be dead.
+export function no_fling(node) {
+  node.addEventListener("touchmove", (event) => event.preventDefault(), { passive: false });
+}
+
 /// `start(place)` false: no drag. `move(place)` on the way, `end(place, moved)` once, `cancel()` instead of it when the
 /// system takes the pointer away. Places are [x, y] in metres.
 export function on_drag(node, { start = () => true, move, end, cancel = () => {} }) {
   node.style.touchAction = "none";
+  no_fling(node);
   for (const type of ["mousedown", "touchstart", "dblclick"]) node.addEventListener(type, (event) => event.stopPropagation());
   node.addEventListener("pointerdown", (event) => {
     if (!event.isPrimary || event.button !== 0 || start(place_of(event)) === false) return;

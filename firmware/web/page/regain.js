@@ -30,7 +30,7 @@ export function note_held(value) {
 
 export function regain_controls() {
   const { hello, status, link } = model;
-  if (link !== "open" || hello === null || status === null) return;
+  if (link !== "open" || hello === null || status === null || status.n === 0) return;  // 0: of an earlier connection
   if (known !== hello) {
     known = hello;
     known_at_ms = performance.now();
