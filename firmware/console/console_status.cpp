@@ -45,6 +45,7 @@ Status status_of(const LoopStatus& loop, int agents) {
   status.agents = static_cast<std::uint8_t>(agents);
   status.fault_reason = number_of(loop.drive_fault.reason);
   status.fault_node_id = loop.drive_fault.node_id;
+  status.fault_wheel = number_of(loop.drive_fault.wheel);
   status.fault_turning_node_id = loop.drive_fault.turning_node_id;
   status.fault_code = loop.drive_fault.code;
   const bool held = loop.stop_held.reason != drivers::DriveFaultReason::kNone;

@@ -15,7 +15,7 @@ struct Option {
   std::string_view value;
   std::string_view meaning;
 };
-constexpr std::array<Option, 11> kOptions{{
+constexpr std::array<Option, 13> kOptions{{
     {"--socket", "PATH", "of the controller, as given to ivo run --console (the service's)"},
     {"--listen", "ADDRESS", "of this machine (127.0.0.1); 0.0.0.0 or :: for all of them"},
     {"--port", "N", "TCP port (8080); 0: any that is free"},
@@ -27,6 +27,8 @@ constexpr std::array<Option, 11> kOptions{{
     {"--state", "DIR", "where it keeps who is paired ($XDG_STATE_HOME/ivo-console, or /var/lib/ivo-console)"},
     {"--new-token", "NAME", "print a token for a ROS client or a script, and end"},
     {"--role", "ROLE", "of that token: viewer, who may look and stop, or operator"},
+    {"--paired", "", "print who is paired, oldest first, each with its digits, and end"},
+    {"--forget", "DIGITS", "end the pairing of whom --paired shows with them, and end"},
 }};
 
 Error refusal(std::string_view name, std::string_view found, std::string_view expected) {
@@ -68,6 +70,8 @@ Result<void> set(std::string_view name, const std::string& value, ConsoleOptions
     options.origins.push_back(value);
   } else if (name == "--new-token") {
     options.new_token = value;
+  } else if (name == "--forget") {
+    options.forget = value;
   } else {
     const std::optional<Role> role = role_of(value);
     if (!role) {
@@ -106,6 +110,13 @@ Result<ConsoleOptions> parse_console_options(std::span<const char* const> argume
     const std::string name = argument.substr(0, equals);
     if (!is_known(name)) {
       return Error{"\"" + name + "\" is no option; expected one that ivo-console --help shows"};
+    }
+    if (name == "--paired") {
+      if (equals != std::string::npos) {
+        return refusal(name, argument.substr(equals + 1), "no value");
+      }
+      options.paired = true;
+      continue;
     }
     if (equals == std::string::npos && i + 1 == arguments.size()) {
       return Error{name + ": has no value; expected one behind it"};

@@ -21,6 +21,8 @@ struct ConsoleOptions {
   std::vector<std::string> origins;
   std::optional<std::string> new_token;  ///< a name: print a token for it and end
   Role role = Role::kViewer;             ///< of the new token
+  bool paired = false;                   ///< print who is paired and end
+  std::optional<std::string> forget;     ///< of whom, and end
   bool help = false;
 };
 

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
 #include <string>
 #include <utility>
 
@@ -10,9 +11,12 @@
 #include "firmware/web/hub.hpp"
 #include "firmware/web/pairing_code.hpp"
 #include "firmware/web/site.hpp"
+#include "hal/linux/service_notify.hpp"
 
 namespace ivo::firmware::web {
 namespace {
+
+constexpr Duration kAliveEvery = std::chrono::seconds(1);
 
 std::string place_text(const Listening& listening, int port) {
   const bool six = listening.address.find(':') != std::string::npos;
@@ -23,6 +27,11 @@ std::string place_text(const Listening& listening, int port) {
 std::string machine_name() {
   std::array<char, 256> name{};
   return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
+}
+
+std::string line_of(const Paired& paired) {
+  return paired.hash.substr(0, TokenStore::kIdDigits) + " " + std::string(name_of(paired.role)) + " " + paired.name +
+         "\n";
 }
 
 }  // namespace
@@ -40,9 +49,27 @@ Result<void> run_console(const ConsoleOptions& options, const std::atomic<bool>&
     out << token.value() << '\n';
     return {};
   }
+  if (options.forget) {
+    const Result<Paired> forgotten = tokens.value().forget(*options.forget);
+    if (!forgotten) {
+      return Error{"--forget: " + forgotten.error().message};
+    }
+    out << "forgotten: " << line_of(forgotten.value());
+    return {};
+  }
+  if (options.paired) {
+    for (const Paired& paired : tokens.value().all()) {
+      out << line_of(paired);
+    }
+    return {};
+  }
   const Result<Site> site = Site::read(options.page, options.leaflet);
   if (!site) {
     return site.error();
+  }
+  Result<hal::ServiceNotify> notify = hal::ServiceNotify::open();
+  if (!notify) {
+    return notify.error();
   }
   const auto say = [&out](const std::string& line) { out << line << std::endl; };
   PairingCode code;
@@ -56,7 +83,15 @@ Result<void> run_console(const ConsoleOptions& options, const std::atomic<bool>&
   }
   say("listening at " + place_text(options.listening, server.value().port()));
   say("the pairing code is " + code.digits());
-  server.value().run(stop);
+  notify.value().ready();
+  server.value().run(stop, [&notify, said_at = Instant()]() mutable {
+    const Instant now(std::chrono::steady_clock::now().time_since_epoch());
+    if (now - said_at >= kAliveEvery) {
+      said_at = now;
+      notify.value().alive();
+    }
+  });
+  notify.value().stopping();
   say("ended");
   return {};
 }

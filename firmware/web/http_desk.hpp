@@ -43,6 +43,8 @@ class HttpDesk {
   [[nodiscard]] HttpAnswer not_paired();
   /// Who opens a WebSocket with that request; none: nobody may.
   [[nodiscard]] std::optional<Paired> visitor(const HttpRequest& request);
+  /// Of who was a visitor before.
+  [[nodiscard]] bool still_paired(const Paired& paired) { return tokens_.holds(paired); }
   /// Of a body that the request may bring; 0: none.
   [[nodiscard]] static std::size_t longest_body(const HttpRequest& request) noexcept;
 

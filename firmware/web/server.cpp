@@ -12,6 +12,7 @@ namespace ivo::firmware::web {
 namespace {
 
 constexpr std::chrono::microseconds kTurnEvery = std::chrono::milliseconds(10);
+constexpr Duration kLookEvery = std::chrono::seconds(1);  // whether who is connected is still paired
 constexpr Duration kGoodbye = std::chrono::milliseconds(500);
 
 std::string& last_log_line() {
@@ -83,21 +84,35 @@ void ServerLoop::on_turn(lws_sorted_usec_list_t* timer) {
 void ServerLoop::turn() {
   const Instant at = now();
   hub_.turn(at);
+  if (turned_) {
+    turned_();
+  }
   for (const auto& [connection, guest] : guests_) {
     if (at >= guest.until && !sockets_.contains(connection)) {
       lws_set_timeout(connection, PENDING_TIMEOUT_USER_REASON_BASE, LWS_TO_KILL_ASYNC);
     }
   }
+  const bool looks = at - looked_at_ >= kLookEvery;
+  looked_at_ = looks ? at : looked_at_;
   for (auto& [connection, socket] : sockets_) {
     if (ending_) {
       lws_callback_on_writable(connection);
-    } else if (!socket.turn(at)) {
+    } else if (!socket.turn(at) || (looks && forgotten(socket))) {
       lws_set_timeout(connection, PENDING_TIMEOUT_USER_REASON_BASE, LWS_TO_KILL_ASYNC);
     }
   }
 }
 
-void ServerLoop::run(const std::atomic<bool>& stop) {
+bool ServerLoop::forgotten(WebSocket& socket) {
+  const bool is = !desk_.still_paired(socket.session().paired());
+  if (is) {
+    socket.close_because("no longer paired");
+  }
+  return is;
+}
+
+void ServerLoop::run(const std::atomic<bool>& stop, std::function<void()> turned) {
+  turned_ = std::move(turned);
   while (!stop.load()) {
     if (lws_service(context_, 0) < 0) {
       break;
@@ -136,6 +151,6 @@ Result<Server> Server::listen(const Listening& listening, Hub& hub, HttpDesk& de
 }
 
 int Server::port() const { return loop_->port(); }
-void Server::run(const std::atomic<bool>& stop) { loop_->run(stop); }
+void Server::run(const std::atomic<bool>& stop, std::function<void()> turned) { loop_->run(stop, std::move(turned)); }
 
 }  // namespace ivo::firmware::web

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -29,8 +30,8 @@ class Server {
   ~Server();
 
   [[nodiscard]] int port() const;
-  /// Until `stop` is set; then says goodbye to everybody.
-  void run(const std::atomic<bool>& stop);
+  /// Until `stop` is set; then says goodbye to everybody. `turned` is called a hundred times a second meanwhile.
+  void run(const std::atomic<bool>& stop, std::function<void()> turned);
 
  private:
   explicit Server(std::unique_ptr<ServerLoop> loop);

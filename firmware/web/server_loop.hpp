@@ -8,6 +8,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
@@ -34,7 +35,7 @@ class ServerLoop {
   ~ServerLoop() { end(); }
 
   [[nodiscard]] Result<void> listen(const Listening& listening);
-  void run(const std::atomic<bool>& stop);
+  void run(const std::atomic<bool>& stop, std::function<void()> turned);
   [[nodiscard]] int port() const;
 
   static int on_event(lws* connection, lws_callback_reasons reason, void* user, void* in, size_t size);
@@ -65,15 +66,18 @@ class ServerLoop {
   void closed(lws* connection);
   void instantiated(lws* connection);
   void prolong(lws* connection);
+  [[nodiscard]] bool forgotten(WebSocket& socket);
 
   Hub& hub_;
   HttpDesk& desk_;
   HttpDesk::Said said_;
+  std::function<void()> turned_;
   lws_context* context_ = nullptr;
   lws_vhost* host_ = nullptr;
   std::array<lws_protocols, 3> protocols_{};
   Turn turn_;
   bool ending_ = false;
+  Instant looked_at_{};
   ConnectionLimits limits_;
   struct Guest {
     ClientAddress address;

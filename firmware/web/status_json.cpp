@@ -8,6 +8,7 @@
 #include "firmware/mission/search_run.hpp"
 #include "firmware/safety/mode.hpp"
 #include "firmware/web/compact_json.hpp"
+#include "firmware/web/fault_kind.hpp"
 
 namespace ivo::firmware::web {
 namespace {
@@ -22,8 +23,10 @@ constexpr std::array<std::string_view, 4> kLinks{"none", "connected", "silent", 
 constexpr std::array<std::string_view, 3> kAsked{"nothing", "consent", "clearing"};
 constexpr std::array<std::string_view, 3> kSearches{"running", "found", "paths_ended"};
 constexpr std::array<std::string_view, 4> kPauseCauses{"none", "asked", "beat_lost", "replan"};
+constexpr std::array<std::string_view, 4> kWheels{"front_left", "front_right", "rear_left", "rear_right"};
 constexpr std::array<std::string_view, 4> kStopCauses{"none", "asked", "no_consent", "plan_not_kept"};
-static_assert(static_cast<int>(SearchState::kPathsEnded) == 2 && static_cast<int>(StopCause::kPlanNotKept) == 3);
+static_assert(static_cast<int>(SearchState::kPathsEnded) == 2 && static_cast<int>(StopCause::kPlanNotKept) == 3 &&
+              static_cast<int>(Wheel::kRearRight) == 3);
 
 std::string_view mode_word(std::uint8_t mode) { return mode < kModes ? name_of(static_cast<Mode>(mode)) : "unknown"; }
 
@@ -66,6 +69,13 @@ void put_agents(const console::Status& status, CompactJson& json) {
   json.close(']');
 }
 
+void put_fault(const console::Status& status, CompactJson& json) {
+  json.key("fault").text(status.fault.data());
+  json.key("fault_kind").text(fault_kind(static_cast<drivers::DriveFaultReason>(status.fault_reason)));
+  json.key("fault_wheel");
+  status.fault_node_id == 0 ? json.null() : json.text(word(kWheels, status.fault_wheel));
+}
+
 void put_status(const console::Status& status, CompactJson& json) {
   json.key("time_s").number(static_cast<double>(status.at_ns) / 1e9);
   json.key("mode").text(mode_word(status.mode));
@@ -79,7 +89,7 @@ void put_status(const console::Status& status, CompactJson& json) {
   json.key("finished").flag(status.finished != 0);
   put_agents(status, json);
   json.key("heading_rad").number(status.heading_rad);
-  json.key("fault").text(status.fault.data());
+  put_fault(status, json);
   json.key("stop_held").flag(status.stop_held != 0);
   json.key("taken_up").flag(status.taken_up != 0);
 }

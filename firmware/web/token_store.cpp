@@ -63,6 +63,15 @@ Result<std::vector<Paired>> paired_in(const std::string& text, const std::string
   return all;
 }
 
+/// Until it is closed, no other process changes the list.
+Result<hal::FileDescriptor> locked(const std::string& path) {
+  hal::FileDescriptor lock(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600));
+  if (!lock.valid() || ::flock(lock.get(), LOCK_EX) != 0) {
+    return Error{path + ": cannot be locked: " + std::strerror(errno)};
+  }
+  return lock;
+}
+
 std::string version_of(const std::string& path) {
   struct stat status {};
   return ::stat(path.c_str(), &status) != 0
@@ -127,12 +136,29 @@ Result<void> TokenStore::read() {
   return {};
 }
 
-bool TokenStore::changed() { return version_of(path_) != version_; }
+void TokenStore::heed_others() {
+  if (version_of(path_) != version_) {
+    (void)read();  // damaged meanwhile: who was known stays known
+  }
+}
+
+Result<void> TokenStore::write(std::vector<Paired> after) {
+  std::string text = std::string(kFirstLine) + "\n";
+  for (const Paired& paired : after) {
+    text += paired.hash + " " + std::string(name_of(paired.role)) + " " + paired.name + "\n";
+  }
+  if (const Result<void> written = write_private_file(path_, text); !written) {
+    return written.error();
+  }
+  version_ = version_of(path_);
+  paired_ = std::move(after);
+  return {};
+}
 
 Result<std::string> TokenStore::add(std::string_view name, Role role) {
-  const hal::FileDescriptor lock(::open(lock_path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600));
-  if (!lock.valid() || ::flock(lock.get(), LOCK_EX) != 0) {
-    return Error{lock_path_ + ": cannot be locked: " + std::strerror(errno)};
+  const Result<hal::FileDescriptor> lock = locked(lock_path_);
+  if (!lock) {
+    return lock.error();
   }
   if (const Result<void> again = read(); !again) {
     return again.error();
@@ -144,22 +170,43 @@ Result<std::string> TokenStore::add(std::string_view name, Role role) {
     after.erase(after.begin());
   }
   after.push_back({digest_of(token), role, tidy_name(name)});
-  std::string text = std::string(kFirstLine) + "\n";
-  for (const Paired& paired : after) {
-    text += paired.hash + " " + std::string(name_of(paired.role)) + " " + paired.name + "\n";
-  }
-  if (const Result<void> written = write_private_file(path_, text); !written) {
+  if (const Result<void> written = write(std::move(after)); !written) {
     return written.error();
   }
-  version_ = version_of(path_);
-  paired_ = std::move(after);
   return token;
 }
 
-std::optional<Paired> TokenStore::find(const std::string& token) {
-  if (changed()) {
-    (void)read();  // damaged meanwhile: who was known stays known
+Result<Paired> TokenStore::forget(std::string_view id) {
+  const Result<hal::FileDescriptor> lock = locked(lock_path_);
+  if (!lock) {
+    return lock.error();
   }
+  if (const Result<void> again = read(); !again) {
+    return again.error();
+  }
+  std::vector<Paired> after = paired_;
+  const auto found = std::find_if(after.begin(), after.end(), [id](const Paired& each) {
+    return id.size() >= kIdDigits && each.hash.starts_with(id);
+  });
+  if (found == after.end()) {
+    return Error{"\"" + std::string(id) + "\" is nobody's; expected the " + std::to_string(kIdDigits) +
+                 " digits that ivo-console --paired shows"};
+  }
+  const Paired forgotten = *found;
+  after.erase(found);
+  if (const Result<void> written = write(std::move(after)); !written) {
+    return written.error();
+  }
+  return forgotten;
+}
+
+bool TokenStore::holds(const Paired& paired) {
+  heed_others();
+  return std::any_of(paired_.begin(), paired_.end(), [&](const Paired& each) { return each.hash == paired.hash; });
+}
+
+std::optional<Paired> TokenStore::find(const std::string& token) {
+  heed_others();
   const std::string hash = digest_of(token);
   std::optional<Paired> found;
   for (const Paired& paired : paired_) {

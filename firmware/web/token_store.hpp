@@ -28,6 +28,7 @@ struct Paired {
 class TokenStore {
  public:
   static constexpr std::size_t kMost = 64;
+  static constexpr std::size_t kIdDigits = 8;  ///< of a hash, to name it by
 
   /// `folder`/tokens, made when it is not there. A file that is damaged is refused by name: whoever is paired would
   /// be forgotten with the next write.
@@ -38,12 +39,18 @@ class TokenStore {
   [[nodiscard]] Result<std::string> add(std::string_view name, Role role);
   /// Whose it is. A token that another process has added is known at once.
   [[nodiscard]] std::optional<Paired> find(const std::string& token);
+  /// The token whose hash begins with `id`, at least kIdDigits of it, counts no more. Fails when there is none.
+  [[nodiscard]] Result<Paired> forget(std::string_view id);
+  /// Is it still paired? Also when another process has changed the list, or removed the file.
+  [[nodiscard]] bool holds(const Paired& paired);
+  [[nodiscard]] const std::vector<Paired>& all() const noexcept { return paired_; }  ///< oldest first
   [[nodiscard]] std::size_t size() const noexcept { return paired_.size(); }
 
  private:
   explicit TokenStore(const std::string& folder) : path_(folder + "/tokens"), lock_path_(folder + "/tokens.lock") {}
   [[nodiscard]] Result<void> read();
-  [[nodiscard]] bool changed();
+  [[nodiscard]] Result<void> write(std::vector<Paired> after);
+  void heed_others();
 
   std::string path_;
   std::string lock_path_;

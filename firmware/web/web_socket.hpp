@@ -31,6 +31,7 @@ class WebSocket {
   [[nodiscard]] bool writable(Instant now);
   /// Every few milliseconds.
   [[nodiscard]] bool turn(Instant now);
+  void close_because(const char* why) noexcept { complaint_ = why; }
   /// For a person: why it is to be closed.
   [[nodiscard]] const char* complaint() const noexcept { return complaint_; }
   [[nodiscard]] const Session& session() const noexcept { return session_; }

@@ -116,6 +116,20 @@ class ServiceInGuest(unittest.TestCase):
     def test_after_a_stop_it_is_started_by_hand_and_asks(self):
         self.assert_facts("again", ActiveState="active", SubState="running", StatusText="awaiting consent")
 
+    def test_the_console_waits_for_a_person_to_switch_it_on_and_serves_its_page_then(self):
+        self.assert_facts("console", enabled="disabled", ActiveState="active", SubState="running", CapBnd="0" * 16, page="HTTP/1.1 200 OK")
+        uids = self.facts["console"]["Uid"].split()
+        self.assertEqual(len(set(uids)), 1)
+        self.assertNotEqual(uids[0], "0")
+
+    def test_a_console_that_hangs_is_killed_by_the_watchdog_and_restarted(self):
+        self.assert_facts("console_hung", ActiveState="active", SubState="running", NRestarts="1")
+        self.assertRegex(self.facts["console_hung"]["journal"], "Watchdog timeout")
+        self.assert_facts("console_stopped", ActiveState="inactive", Result="success")
+
+    def test_whatever_becomes_of_the_console_the_controller_does_not_notice(self):
+        self.assert_facts("beside_console", ActiveState="active", SubState="running", MainPID=self.facts["again"]["MainPID"])
+
     def test_a_package_installed_again_leaves_it_and_its_configuration_alone(self):
         self.assert_facts("reinstalled", ActiveState="active", SubState="running", MainPID=self.facts["again"]["MainPID"], configuration="kept")
 

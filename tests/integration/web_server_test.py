@@ -164,6 +164,26 @@ class Pairing(WebServerTest):
         self.assertRegex(token, "^[0-9a-f]{64}$")
         self.assertEqual(self.page(token).hello["may_operate"], False)
 
+    def paired(self):
+        return subprocess.run(self.options("--paired"), capture_output=True, text=True, check=True).stdout
+
+    def test_who_is_forgotten_is_hung_up_on_and_the_others_are_not(self):
+        self.start()
+        ana, luis = self.pair("Ana"), self.pair("Luis")
+        gone, stays = self.page(ana), self.page(luis)
+        self.assertRegex(self.paired(), r"^[0-9a-f]{8} operator Ana\n[0-9a-f]{8} operator Luis\n$")
+        digits = self.paired().split()[0]
+        done = subprocess.run(self.options("--forget", digits), capture_output=True, text=True, check=True)
+        self.assertEqual(done.stdout, f"forgotten: {digits} operator Ana\n")
+        self.line(r"screen \d+, Ana: no longer paired")
+        with self.assertRaises(ConnectionError):
+            gone.wait_for(lambda message: False)
+        self.assertEqual(self.get("/areas.geojson", ana).status, 403)
+        stays.status(lambda status: [each["name"] for each in status["screens"]] == ["Luis"])
+        done = subprocess.run(self.options("--forget", digits), capture_output=True, text=True, check=False)
+        self.assertEqual((done.returncode, done.stderr),
+                         (2, f'ivo-console: --forget: "{digits}" is nobody\'s; expected the 8 digits that ivo-console --paired shows\n'))
+
 
 class Doors(WebServerTest):
     def test_a_name_that_was_turned_towards_this_machine_is_refused(self):
@@ -656,7 +676,7 @@ class CommandLine(WebServerTest):
 
     def test_help_names_every_option(self):
         done = subprocess.run([PROGRAM, "--help"], capture_output=True, text=True, check=True)
-        for option in ("--socket", "--listen", "--port", "--certificate", "--key", "--origin", "--web", "--leaflet", "--state", "--new-token", "--role"):
+        for option in ("--socket", "--listen", "--port", "--certificate", "--key", "--origin", "--web", "--leaflet", "--state", "--new-token", "--role", "--paired", "--forget"):
             self.assertIn(option, done.stdout)
 
 

@@ -1,6 +1,8 @@
 #!/usr/bin/python3
 """Areas: moved, resized, removed, undone, by finger and by keyboard; who watches sees them and changes nothing."""
 
+import json
+import os
 import unittest
 
 from selenium.webdriver.common.keys import Keys
@@ -66,10 +68,27 @@ class Areas(ConsoleTest):
     def test_by_mouse(self):
         self.moves(self.screen("Ana's desk", "desk"))
 
+    def test_a_file_that_was_loaded_is_undone_in_one_step(self):
+        screen = self.screen("Ana's desk", "desk")
+        self.put(screen)
+        screen.wait("document.querySelector('.area[data-slot=\"0\"]')")
+        box = [[2, 2], [6, 2], [6, 5], [2, 5], [2, 2]]
+        path = os.path.join(self.folder, "areas.geojson")
+        with open(path, "w", encoding="utf-8") as file:
+            json.dump({"type": "FeatureCollection", "features": [
+                {"type": "Feature", "properties": {"purpose": "no_go", "agent": None}, "geometry": {"type": "Polygon", "coordinates": [[[x + shift, y] for x, y in box]]}}
+                for shift in (0, 6)]}, file)
+        screen.browser.driver.find_element("id", "areas-load-file").send_keys(path)
+        screen.wait_text("area-0", "No-go")
+        screen.wait_text("area-1", "No-go")
+        screen.press("undo")
+        screen.wait_text("area-0", "Ana prefers")
+        screen.wait("document.querySelectorAll('.area').length === 1")
+
     def test_by_keyboard_alone(self):
         screen = self.screen("Ana's desk", "desk")
         screen.keys("area-numbers", Keys.ENTER)
-        self.assertEqual(screen.js("return document.activeElement.id"), "form-x")
+        screen.wait("document.activeElement.id === 'form-x'")
         for name, value in {**RECTANGLE, "width": 40}.items():
             screen.type(f"form-{name}", str(value))
         screen.keys("form-height", Keys.ENTER)

@@ -122,6 +122,18 @@ class Link(ConsoleTest):
     def test_a_page_that_hangs_is_no_eye_on_the_robot(self):
         self.stops_while(lambda: self.ana.js("setTimeout(() => { const end = performance.now() + 4000; while (performance.now() < end); }, 0)"), lambda: None)
 
+    def test_a_page_that_is_frozen_is_no_eye_on_the_robot(self):
+        """As a browser does with a page on a tablet that sleeps."""
+        state = lambda name: self.ana.browser.tell("Page.setWebLifecycleState", state=name)
+        self.stops_while(lambda: state("frozen"), lambda: state("active"))
+
+    def test_a_tablet_out_of_reach_is_no_eye_on_the_robot_and_comes_back_by_itself(self):
+        def reach(offline):
+            self.ana.browser.tell("Network.enable")
+            self.ana.browser.tell("Network.emulateNetworkConditions", offline=offline, latency=0, downloadThroughput=-1, uploadThroughput=-1)
+
+        self.stops_while(lambda: reach(True), lambda: reach(False))
+
     def test_a_page_behind_another_is_no_eye_on_the_robot(self):
         driver = self.ana.browser.driver
         ours = driver.current_window_handle

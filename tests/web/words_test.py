@@ -1,10 +1,11 @@
 #!/usr/bin/python3
 """The page's words: the same sentences in both languages, and no English on a Spanish screen."""
 
+import os
 import re
 import unittest
 
-from console_rig import ConsoleTest
+from console_rig import ConsoleTest, courtyard
 
 WORDS = """const done = arguments[0];
 Promise.all([import("/words_en.js"), import("/words_es.js")]).then(([en, es]) => done([en.words, es.words]), (fault) => done(String(fault)))"""
@@ -48,6 +49,21 @@ class Words(ConsoleTest):
         screen.browser.driver.refresh()
         screen.wait_stage("search")
         assert_spanish("reloaded")
+
+    def test_a_fault_says_where_to_look(self):
+        script = os.path.join(self.folder, "script.toml")
+        with open(script, "w", encoding="utf-8") as file:
+            file.write('[[at]]\nt_s = 6.0\ndrive = "rear_left"\nfault = "reboot"\n')
+        self.start_controller(courtyard("unknown"), "--script", script)
+        self.start_server()
+        screen = self.screen("Tableta de Ana", "tablet", language="es")
+        screen.wait_stage("fault")
+        screen.wait_text("now-text", "La rueda trasera izquierda avisa de un fallo de su motor. ")
+        self.assertEqual(screen.text("fault-detail"), "drive 3 (rear left): rebooted")
+        screen.judge("spanish-fault")
+        screen.press("language")
+        screen.wait_text("now-text", "The rear left wheel reported a fault of its motor. ")
+        screen.judge("fault")
 
 
 if __name__ == "__main__":

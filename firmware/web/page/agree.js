@@ -1,6 +1,6 @@
 // What is to be agreed now: where the plan stands, what it asks, and why the robot stands.
 import { by_id, on_press, set_attribute, set_text, show } from "./dom.js";
-import { advice_of } from "./state_words.js";
+import { advice_of, fault_words } from "./state_words.js";
 import { agents_of, is_operator, stage_of } from "./judge.js";
 import { model } from "./model.js";
 import { show_asked } from "./asked.js";
@@ -32,6 +32,13 @@ function show_pause() {
   if (shown) set_text(by_id("pause-text"), say(`pause.${cause}`));
 }
 
+// For who mends it; the sentence above says where to look.
+function show_fault_detail(stage) {
+  const detail = stage === "fault" ? (model.status?.fault ?? "") : "";
+  show(by_id("fault-detail"), detail !== "");
+  set_text(by_id("fault-detail"), detail);
+}
+
 export function show_agree() {
   const stage = stage_of(model);
   if (document.body.dataset.stage !== stage) by_id("page-search").scrollTop = 0;
@@ -43,10 +50,11 @@ export function show_agree() {
     person: agents_of(model).find((agent) => agent.kind === "person")?.name ?? say("somebody"),
     finder: agents_of(model)[model.status?.search?.finder]?.name ?? "",
     number: model.status?.plan?.number ?? "",
-    fault: model.status?.fault ?? "",
+    fault: fault_words(model, say),
   };
   set_text(by_id("now-title"), say(title, values));
   set_text(by_id("now-text"), say(text, values));
+  show_fault_detail(stage);
   show_progress();
   show_pause();
   show_facts(stage === "plan" || stage === "agree");

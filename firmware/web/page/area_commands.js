@@ -5,7 +5,7 @@ import { tell } from "./tell.js";
 
 const kSlots = 32;
 const kMostUndone = 100;
-const undo_stack = [];  // of functions that send the inverse
+const undo_stack = [];  // each a Map: by slot, what it held before; null: nothing
 
 function area_in(slot) {
   const area = areas_of(model).find((each) => each.slot === slot);
@@ -29,23 +29,41 @@ function send_area(slot, area) {
 export async function change_area(slot, area) {
   const before = area_in(slot);
   const accepted = await send_area(slot, area);
-  if (accepted) {
-    undo_stack.push({ slot, before });
-    if (undo_stack.length > kMostUndone) undo_stack.shift();
-  }
+  if (accepted) push(new Map([[slot, before]]));
   changed();
   return accepted;
+}
+
+/// What they are now, for note_replaced().
+export function all_areas() {
+  return new Map(Array.from({ length: kSlots }, (_, slot) => [slot, area_in(slot)]));
+}
+
+/// Another way has put others in their place: one step to undo.
+export function note_replaced(before) {
+  push(before);
+  changed();
+}
+
+function push(step) {
+  undo_stack.push(step);
+  if (undo_stack.length > kMostUndone) undo_stack.shift();
 }
 
 export function can_undo() {
   return undo_stack.length > 0;
 }
 
-/// The slot that it was about, or null.
+const is_same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
+
+/// False: not, or not wholly. What is left of the step can be undone again.
 export async function undo() {
-  const last = undo_stack.pop();
-  if (!last) return null;
-  if (!(await send_area(last.slot, last.before))) undo_stack.push(last);
+  const step = undo_stack.pop();
+  if (!step) return false;
+  const left = [...step].filter(([slot, area]) => step.size === 1 || !is_same(area, area_in(slot)));
+  const sent = await Promise.all(left.map(([slot, area]) => send_area(slot, area)));
+  const failed = left.filter((_, i) => !sent[i]);
+  if (failed.length > 0) push(new Map(failed));
   changed();
-  return last.slot;
+  return failed.length === 0;
 }

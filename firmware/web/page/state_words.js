@@ -29,6 +29,13 @@ export function state_words(model) {
   return words(status.plan.accepted ? "ready" : "awaiting", "calm");
 }
 
+/// What is wrong, as far as somebody beside the robot can see it.
+export function fault_words(model, say) {
+  const { fault_kind: kind, fault_wheel: wheel } = model.status ?? {};
+  if (!kind || kind === "none") return "";
+  return say(`fault.${kind}`, { wheel: say(`wheel.${wheel ?? "some"}`) });
+}
+
 /// found_by_robot, found_by_person, paths_ended, stopped or ended.
 export function end_key(model) {
   const { search, stop_cause } = model.status;

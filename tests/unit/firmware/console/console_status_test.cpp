@@ -84,6 +84,7 @@ TEST(ConsoleStatus, SaysAFaultInWordsThatEnd) {
   Status status = status_of(loop, 1);
   EXPECT_STREQ(status.fault.data(), "drive 3 (rear left): rebooted");
   EXPECT_EQ(status.fault_node_id, 3);
+  EXPECT_EQ(status.fault_wheel, 2);
   const std::string longer(200, 'x');
   loop.drive_fault.step = longer.c_str();
   loop.drive_fault.reason = drivers::DriveFaultReason::kSdoTimedOut;

@@ -36,12 +36,15 @@ TEST(ConsoleOptions, TakeTheirValues) {
   const ConsoleOptions token = options_of({"--new-token", "rviz", "--role", "operator"}).value();
   EXPECT_EQ(token.new_token, "rviz");
   EXPECT_EQ(token.role, Role::kOperator);
+  EXPECT_TRUE(options_of({"--paired"}).value().paired);
+  EXPECT_EQ(options_of({"--forget", "0123abcd"}).value().forget, "0123abcd");
   EXPECT_TRUE(options_of({"--help"}).value().help);
 }
 
 TEST(ConsoleOptions, AreRefusedByName) {
   EXPECT_EQ(complaint_of({"--prot", "1"}), "\"--prot\" is no option; expected one that ivo-console --help shows");
   EXPECT_EQ(complaint_of({"8080"}), "\"8080\" is no option; expected one that ivo-console --help shows");
+  EXPECT_EQ(complaint_of({"--paired=all"}), "--paired: \"all\" will not do; expected no value");
   EXPECT_EQ(complaint_of({"--port"}), "--port: has no value; expected one behind it");
   for (const char* port : {"-1", "65536", "80a", "eighty"}) {
     EXPECT_EQ(complaint_of({"--port", port}),

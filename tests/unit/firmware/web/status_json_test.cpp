@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <set>
+#include <string_view>
 
 #include "firmware/files/json_value.hpp"
 #include "firmware/web/compact_json.hpp"
+#include "firmware/web/fault_kind.hpp"
 
 namespace ivo::firmware::web {
 namespace {
@@ -122,6 +125,33 @@ TEST(Verdicts, HaveNames) {
   EXPECT_EQ(name_of(Verdict::kNotAnArea), "not_an_area");
   for (int i = 0; i < console::kVerdicts; ++i) {
     EXPECT_FALSE(name_of(verdict_of(static_cast<console::Verdict>(i))).empty());
+  }
+}
+
+TEST(StatusText, SaysWhereToLookWhenThereIsAFault) {
+  console::Status status;
+  Json json = parsed_status(view_with(status), {}, Instant(10s));
+  EXPECT_EQ(json.member("fault_kind")->text, "none");
+  EXPECT_EQ(json.member("fault_wheel")->kind, Json::Kind::kNull);
+  status.fault_reason = static_cast<std::uint8_t>(drivers::DriveFaultReason::kRebooted);
+  status.fault_node_id = 3;
+  status.fault_wheel = 2;
+  json = parsed_status(view_with(status), {}, Instant(10s));
+  EXPECT_EQ(json.member("fault_kind")->text, "drive");
+  EXPECT_EQ(json.member("fault_wheel")->text, "rear_left");
+  status.fault_reason = 200;
+  status.fault_wheel = 4;
+  json = parsed_status(view_with(status), {}, Instant(10s));
+  EXPECT_EQ(json.member("fault_kind")->text, "unknown");
+  EXPECT_EQ(json.member("fault_wheel")->text, "unknown");
+}
+
+// A person without the page's words for a kind would read its name.
+TEST(FaultKind, OfEveryReasonIsOneThatThePageHasWordsFor) {
+  const std::set<std::string_view> words{"start_up", "drive",  "silent",   "power",     "wheel",
+                                         "slip",     "wiring", "computer", "stop_input"};
+  for (int reason = 1; reason <= static_cast<int>(drivers::DriveFaultReason::kFrameRefused); ++reason) {
+    EXPECT_TRUE(words.contains(fault_kind(static_cast<drivers::DriveFaultReason>(reason)))) << reason;
   }
 }
 

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <filesystem>
+
 #include "tests/support/scratch_folder.hpp"
 
 namespace ivo::firmware::web {
@@ -52,6 +54,37 @@ TEST_F(TokenStoreTest, SeesWhatAnotherProcessAdds) {
   EXPECT_TRUE(one.find(second).has_value());
   EXPECT_TRUE(other.find(first).has_value());
   EXPECT_EQ(one.size(), 2U);
+}
+
+TEST_F(TokenStoreTest, ForgetsOneByItsDigitsAndNobodyElse) {
+  TokenStore store = open();
+  TokenStore other = open();
+  const std::string ana = store.add("Ana", Role::kOperator).value();
+  const std::string luis = store.add("Luis", Role::kViewer).value();
+  const Paired paired = *other.find(ana);
+  EXPECT_TRUE(other.holds(paired));
+  EXPECT_EQ(store.forget(paired.hash.substr(0, TokenStore::kIdDigits)).value().name, "Ana");
+  EXPECT_FALSE(store.find(ana).has_value());
+  EXPECT_FALSE(other.holds(paired));
+  EXPECT_TRUE(other.find(luis).has_value());
+  EXPECT_EQ(open().size(), 1U);
+}
+
+TEST_F(TokenStoreTest, ForgetsNobodyWhoseDigitsAreTooFewOrUnknown) {
+  TokenStore store = open();
+  const std::string hash = store.find(store.add("Ana", Role::kOperator).value())->hash;
+  for (const std::string& id : {std::string(), hash.substr(0, 7), std::string("Ana"), hash + "0"}) {
+    EXPECT_EQ(store.forget(id).error().message,
+              "\"" + id + "\" is nobody's; expected the 8 digits that ivo-console --paired shows");
+  }
+  EXPECT_EQ(store.size(), 1U);
+}
+
+TEST_F(TokenStoreTest, ForgetsAllWithTheFile) {
+  TokenStore store = open();
+  const Paired paired = *store.find(store.add("Ana", Role::kOperator).value());
+  std::filesystem::remove(folder_.path("tokens"));
+  EXPECT_FALSE(store.holds(paired));
 }
 
 TEST_F(TokenStoreTest, ForgetsTheOldestWhenThereAreTooMany) {
