@@ -149,10 +149,18 @@ Verdict ConsoleDesk::answer(const Command& command) {
   if (command.question != status_.question) {
     return Verdict::kOtherQuestion;
   }
+  if (kind == Kind::kConsent && status_.into_no_go != Status::kNobody) {
+    return Verdict::kOutdated;
+  }
+  // From a page the plan was read and accepted first.
+  const bool watched = kind == Kind::kConsent && command.argument == 1;
+  if (watched && !accepted_plan_) {
+    return Verdict::kNotNow;
+  }
   if (std::exchange(answered_, true)) {
     return Verdict::kAnswered;
   }
-  answer_ = DeskAnswer{kind, kind == Kind::kConsent && command.argument == 1};
+  answer_ = DeskAnswer{kind, watched};
   return Verdict::kAccepted;
 }
 
@@ -195,7 +203,7 @@ Verdict ConsoleDesk::want(const Command& command) {
 
 Verdict ConsoleDesk::accept(const Command& command) {
   const std::lock_guard lock(mutex_);
-  if (command.argument != status_.plan_number) {
+  if (command.argument != status_.plan_number || status_.into_no_go != Status::kNobody) {
     return Verdict::kOutdated;
   }
   if (status_.plan_ready == 0 || status_.preparing != 0) {

@@ -112,8 +112,9 @@ void ControlLoop::take_commands() noexcept {
   if (stop_requested_.load(std::memory_order_relaxed)) {
     stop_for(StopCause::kAsked);
   }
-  if (pause_requested_.exchange(false, std::memory_order_relaxed)) {
-    pause(PauseCause::kAsked);
+  if (const PauseCause cause = pause_requested_.exchange(PauseCause::kNone, std::memory_order_relaxed);
+      cause != PauseCause::kNone) {
+    pause(cause);
   }
   for (OperatorCommand command; commands_.pop(command);) {
     take(command);

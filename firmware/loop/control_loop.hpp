@@ -87,7 +87,9 @@ class ControlLoop {
 
   /// From any thread: the robot ramps down and stands until somebody consents anew. Where it does not move, an answer
   /// that is on its way is void.
-  void request_pause() noexcept { pause_requested_.store(true, std::memory_order_relaxed); }
+  void request_pause(PauseCause cause = PauseCause::kAsked) noexcept {
+    pause_requested_.store(cause, std::memory_order_relaxed);
+  }
   /// From any thread: whoever consented is there (OperatorCommand::watched).
   void beat() noexcept { beats_.fetch_add(1, std::memory_order_relaxed); }
 
@@ -200,7 +202,7 @@ class ControlLoop {
 
   Latest<LoopStatus> status_;
   SpscRing<OperatorCommand, 64> commands_;
-  std::atomic<bool> pause_requested_{false};
+  std::atomic<PauseCause> pause_requested_{PauseCause::kNone};
   std::atomic<std::uint32_t> beats_{0};
   static_assert(std::atomic<std::uint32_t>::is_always_lock_free);
   std::atomic<bool> stop_requested_{false};

@@ -19,7 +19,7 @@ namespace ivo::firmware {
 enum class StopCause : std::uint8_t { kNone, kAsked, kNoConsent, kPlanNotKept };
 
 /// Why the robot stands though the search goes on, when it is not for a fault.
-enum class PauseCause : std::uint8_t { kNone, kAsked, kBeatLost, kReplan };
+enum class PauseCause : std::uint8_t { kNone, kAsked, kBeatLost, kReplan, kNoGo };
 
 struct LoopCounters {
   std::uint64_t cycles = 0;

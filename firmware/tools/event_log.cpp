@@ -49,6 +49,8 @@ std::string_view name_of(PauseCause cause) {
       return "the operator's page is not heard";
     case PauseCause::kReplan:
       return "a plan is made anew";
+    case PauseCause::kNoGo:
+      return "a no-go area lies ahead";
     case PauseCause::kNone:
     case PauseCause::kAsked:
       break;

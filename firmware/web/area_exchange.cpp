@@ -4,11 +4,15 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <utility>
 
+#include "config/limits.hpp"
+#include "firmware/console/area_board.hpp"
 #include "firmware/files/geojson_file.hpp"
 #include "firmware/files/json_reading.hpp"
 #include "firmware/files/json_value.hpp"
+#include "firmware/web/controller_message.hpp"
 #include "firmware/web/mission_facts.hpp"
 
 namespace ivo::firmware::web {
@@ -72,6 +76,26 @@ PutArea request_of_area(const DrawnArea& area, std::uint8_t slot, const std::vec
   return put;
 }
 
+/// As the controller will judge each, so that a file counts whole or not at all.
+Result<void> judge_areas(const std::vector<Request>& puts, const MissionFacts& facts) {
+  console::AreaBoard board({.agents = static_cast<int>(facts.agents.size()),
+                            .width_m = facts.width_px * facts.resolution_m,
+                            .height_m = facts.height_px * facts.resolution_m});
+  for (std::size_t i = 0; i < puts.size(); ++i) {
+    console::AreaCommand area;
+    const std::optional<std::string> packet = controller_message(puts[i], 1);
+    if (packet && packet->size() == sizeof(area)) {
+      std::memcpy(&area, packet->data(), sizeof(area));
+    }
+    if (board.put(area) != console::Verdict::kAccepted) {
+      return Error{"areas.geojson: feature " + std::to_string(i + 1) +
+                   ": lies off the map, is no area, or is one too many of its agent; expected areas on the map, at most " +
+                   std::to_string(limits::kAreas) + " of a kind for each agent"};
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 std::optional<std::string> areas_geojson(const View& view) {
@@ -106,6 +130,9 @@ Result<std::vector<Request>> requests_of_geojson(const std::string& text, const 
     taken.at(slot) = true;
     puts.emplace_back(request_of_area(area, static_cast<std::uint8_t>(slot), facts->agents));
   }
+  if (const Result<void> judged = judge_areas(puts, *facts); !judged) {
+    return judged.error();
+  }
   std::vector<Request> requests;
   for (const DrawnArea& area : *before) {
     if (area.slot && !taken.at(static_cast<std::size_t>(*area.slot))) {
@@ -131,7 +158,8 @@ std::optional<KeepoutMask> keepout_of(const View& view) {
   }
   std::vector<Polygon> no_go;
   for (const DrawnArea& area : areas_of_controller(view).value_or(std::vector<DrawnArea>{})) {
-    if (area.purpose == DrawnPurpose::kNoGo) {
+    // A person's are open to the robot, which is the mission's first agent.
+    if (area.purpose == DrawnPurpose::kNoGo && (!area.agent || *area.agent == facts->agents.front())) {
       no_go.push_back(area.polygon);
     }
   }

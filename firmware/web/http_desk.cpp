@@ -236,7 +236,7 @@ HttpAnswer HttpDesk::screen(const HttpRequest& request) const {
   return not_stored(
       answer_of(200,
                 "<!doctype html><html lang=\"en\"><head><meta charset=\"utf-8\"><meta http-equiv=\"refresh\" "
-                "content=\"2\"><title>Pairing code</title><link rel=\"stylesheet\" href=\"/page.css\"></head>"
+                "content=\"2\"><title>IVO</title><link rel=\"stylesheet\" href=\"/page.css\"></head>"
                 "<body class=\"screen\"><h1 id=\"code\">" +
                     code_.digits() + "</h1></body></html>\n",
                 "text/html; charset=utf-8"));

@@ -22,11 +22,11 @@ std::string_view word(const std::array<std::string_view, N>& words, std::size_t 
 constexpr std::array<std::string_view, 4> kLinks{"none", "connected", "silent", "absent"};
 constexpr std::array<std::string_view, 3> kAsked{"nothing", "consent", "clearing"};
 constexpr std::array<std::string_view, 3> kSearches{"running", "found", "paths_ended"};
-constexpr std::array<std::string_view, 4> kPauseCauses{"none", "asked", "beat_lost", "replan"};
+constexpr std::array<std::string_view, 5> kPauseCauses{"none", "asked", "beat_lost", "replan", "no_go"};
 constexpr std::array<std::string_view, 4> kWheels{"front_left", "front_right", "rear_left", "rear_right"};
 constexpr std::array<std::string_view, 4> kStopCauses{"none", "asked", "no_consent", "plan_not_kept"};
 static_assert(static_cast<int>(SearchState::kPathsEnded) == 2 && static_cast<int>(StopCause::kPlanNotKept) == 3 &&
-              static_cast<int>(Wheel::kRearRight) == 3);
+              static_cast<int>(Wheel::kRearRight) == 3 && static_cast<int>(PauseCause::kNoGo) == 4);
 
 std::string_view mode_word(std::uint8_t mode) { return mode < kModes ? name_of(static_cast<Mode>(mode)) : "unknown"; }
 
@@ -37,6 +37,8 @@ void put_plan(const console::Status& status, CompactJson& json) {
   json.key("accepted").flag(status.accepted != 0);
   json.key("preparing").flag(status.preparing != 0);
   json.key("with_preferences").flag(status.with_preferences != 0);
+  json.key("into_no_go");
+  status.into_no_go == console::Status::kNobody ? json.null() : json.count(status.into_no_go);
   json.key("generation").number(status.generation);
   json.key("generations").number(status.generations).close('}');
 }

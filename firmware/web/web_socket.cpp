@@ -30,7 +30,7 @@ bool WebSocket::received(std::string_view part, Instant now) {
   if (message_.size() + part.size() <= most && !too_long_) {
     message_ += part;
   } else if (ros_) {
-    complaint_ = "sent a message of more than 1 MiB";
+    complaint_ = "sent a message of more than 4 MiB";
     return false;
   } else {
     too_long_ = true;

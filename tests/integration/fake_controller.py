@@ -23,7 +23,7 @@ AREA = struct.Struct("<IHHIIBBBBI128d")
 POSE_COMMAND = struct.Struct("<IHHIIB7x6d")
 REPLY = struct.Struct("<IHHIIIHH")
 AGENT = struct.Struct("<ddddIId")
-STATUS_HEAD = struct.Struct("<IHHIIqI16BIII6B6x4xdiidddqdd")
+STATUS_HEAD = struct.Struct("<IHHIIqI16BIII7B5x4xdiidddqdd")
 STATUS_TAIL = struct.Struct("<160s9Q17QQQII")
 PART = struct.Struct("<IHHIIHHIIIII8192s")
 AGENTS = 8
@@ -51,7 +51,7 @@ class FakeController:
         self.period_s = 1.0 / statuses_per_second
         self.status = {"question": 1, "asks": 1, "mode": 2, "search": 0, "stop_cause": 0, "plan_ready": 1, "search_started": 0, "finished": 0,
                        "finder": NOBODY, "stop_held": 0, "plan_number": 1, "areas_revision": 1, "accepted": 0, "preparing": 0,
-                       "with_preferences": 0, "pause_cause": 0, "watched": 0, "beat_age_s": -1.0, "generation": 3, "generations": 40,
+                       "with_preferences": 0, "pause_cause": 0, "watched": 0, "into_no_go": 255, "beat_age_s": -1.0, "generation": 3, "generations": 40,
                        "expected_time_s": 10.0, "unseen_mass": 0.1, "horizon_s": 180.0, "search_time_s": 0.0, "searched_mass": 0.25,
                        "heading_rad": 0.5, "agents": [(0.2, 0.2, 0.0, 1.0, 0, 0, -1.0), (0.4, 0.2, 0.0, 1.0, 0, 1, 0.4)], "fault": "", "taken_up": 0}
         self.documents = {name: (1, b"") for name in DOCUMENTS}
@@ -179,7 +179,7 @@ class FakeController:
             MAGIC, VERSION, STATUS, STATUS_SIZE, sequence, time.monotonic_ns(), now["question"], now["asks"], now["mode"], now["search"], 0,
             now["stop_cause"], now["plan_ready"], now["search_started"], 0, now["finished"], now["finder"], 0, len(agents), 0, 0, 0,
             now["stop_held"], 0, now["plan_number"], now["areas_revision"], now["accepted"], now["preparing"], now["with_preferences"],
-            now["pause_cause"], now["watched"], now["beat_age_s"], now["generation"], now["generations"], now["expected_time_s"],
+            now["pause_cause"], now["watched"], 0, now["into_no_go"], now["beat_age_s"], now["generation"], now["generations"], now["expected_time_s"],
             now["unseen_mass"], now["horizon_s"], int(now["search_time_s"] * 1e9), now["searched_mass"], now["heading_rad"])
         for i in range(AGENTS):
             packet += AGENT.pack(*(agents[i] if i < len(agents) else (0.0, 0.0, 0.0, 0.0, 0, 0, -1.0)))

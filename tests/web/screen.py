@@ -106,7 +106,7 @@ class Screen:
         field.send_keys(text)
 
     def keys(self, name, *keys):
-        self.js("document.getElementById(arguments[0]).focus()", name)
+        self.wait("(document.getElementById(arguments[0]).focus(), document.activeElement.id === arguments[0])", name)
         self.browser.driver.switch_to.active_element.send_keys(*keys)
 
     def middle(self, name):

@@ -35,6 +35,8 @@ std::string pause_text(const Status& status) {
       return "the operator's page was not heard";
     case PauseCause::kReplan:
       return "a plan is made anew";
+    case PauseCause::kNoGo:
+      return "a no-go area lies ahead";
     case PauseCause::kNone:
     case PauseCause::kAsked:
       break;
@@ -124,6 +126,9 @@ void show_status(const Status& status, const std::vector<std::string>& names) {
                    : status.accepted != 0   ? "; accepted"
                    : status.plan_ready != 0 ? "; not accepted"
                                             : "; not ready"));
+  if (status.into_no_go < names.size()) {
+    say("", "leads " + names[status.into_no_go] + " into a no-go area that was drawn later; expected another plan");
+  }
   say("loop", format("%llu cycles, %llu periods skipped, %llu frames sent, %llu received, %llu not sent, %llu lost",
                      static_cast<unsigned long long>(status.cycles), static_cast<unsigned long long>(status.skipped),
                      static_cast<unsigned long long>(status.frames_sent),

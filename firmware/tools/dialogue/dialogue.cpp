@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "firmware/tools/dialogue/kept_areas.hpp"
+#include "firmware/tools/dialogue/no_go_ahead.hpp"
 #include "firmware/tools/dialogue/path_place.hpp"
 #include "firmware/tools/dialogue/plan_notice.hpp"
 #include "firmware/tools/dialogue/shown_documents.hpp"
@@ -15,6 +16,7 @@ using console::Document;
 using console::Kind;
 
 constexpr Duration kSearchedEvery = std::chrono::milliseconds(400);
+constexpr Duration kLookAheadEvery = std::chrono::milliseconds(100);
 constexpr Duration kAreasAgain = std::chrono::seconds(1);  // where they could not be written
 
 bool moves(Mode mode) { return permissions(mode).may_move; }
@@ -70,6 +72,7 @@ void Dialogue::observe(const LoopStatus& status) {
   go_on(status);
   look(status);
   follow_persons(status);
+  look_ahead(status);
   lay_down(status);
 }
 
@@ -133,6 +136,7 @@ void Dialogue::go_on(const LoopStatus& status) {
 // Who has set off starts from where they are, and what was searched is not searched again.
 void Dialogue::prepare(const LoopStatus& status) {
   Mission& mission = inputs_.file.mission;
+  (void)desk_.documents().put(Document::kNotice, {});  // of an earlier try
   agents_before_ = mission.agents;
   mission.agents = agents_with(mission.agents, desk_.areas(), preferred_wanted_, slots_);
   planner::SearchProblem problem = inputs_.problem();
@@ -180,6 +184,32 @@ void Dialogue::follow_persons(const LoopStatus& status) {
       along_m_[m] = along_path(path.waypoints.span(), track.position, before_m);
     }
     left_m_[m] = std::max(0.0, path.length_m - along_m_[m]);
+  }
+}
+
+// An area that was closed after the plan was made is not driven into: the robot stands until there is another plan.
+void Dialogue::look_ahead(const LoopStatus& status) {
+  const ShownPlan& shown = loop_.shown_plan();
+  const PlanMark mark{shown.number, shown.generation, shown.ready};
+  const console::AreaBoard board = desk_.areas();
+  const bool new_one = board.revision() != areas_ahead_ || !(mark == plan_ahead_);
+  if (!new_one && status.at - looked_ahead_at_ < kLookAheadEvery) {
+    return;
+  }
+  areas_ahead_ = board.revision();
+  plan_ahead_ = mark;
+  looked_ahead_at_ = status.at;
+  into_no_go_.reset();
+  for (std::size_t m = 0; shown.ready && m < shown.plan.paths.size() && !into_no_go_; ++m) {
+    const planner::AgentPath& path = shown.plan.paths[m];
+    const bool on_it = status.search_started && (m > 0 || status.way_of_plan == shown.number);
+    const double left_m = !on_it ? path.length_m : m == 0 ? status.distance_left_m : left_m_[m];
+    if (leads_into_no_go(path, left_m, board, static_cast<std::uint8_t>(m))) {
+      into_no_go_ = static_cast<std::uint8_t>(m);
+    }
+  }
+  if (into_no_go_ == 0 && status.mode == Mode::kSearching) {
+    loop_.request_pause(PauseCause::kNoGo);
   }
 }
 
@@ -243,6 +273,7 @@ void Dialogue::lay_down_plan() {
 void Dialogue::complete(console::Status& status) const {
   status.preparing = preparing() ? 1 : status.preparing;
   status.with_preferences = preferred_ ? 1 : 0;
+  status.into_no_go = into_no_go_.value_or(console::Status::kNobody);
   status.searched_mass = std::min(1.0, searched_.mass());
   for (std::size_t m = 1; m < along_m_.size(); ++m) {
     status.agent[m].left_m = left_m_[m];

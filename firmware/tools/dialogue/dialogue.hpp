@@ -71,6 +71,7 @@ class Dialogue {
   void refuse(const planner::Refusal& refusal);
   void look(const LoopStatus& status);
   void follow_persons(const LoopStatus& status);
+  void look_ahead(const LoopStatus& status);
   void lay_down(const LoopStatus& status);
   void lay_down_plan();
   [[nodiscard]] planner::Planner& spare() const noexcept { return *planners_[1 - current_]; }
@@ -104,6 +105,10 @@ class Dialogue {
   std::string plan_ready_;                         // the last that was planned to its end, as a document
   std::array<double, limits::kAgents> along_m_{};  // of its path, each person
   std::array<double, limits::kAgents> left_m_{};
+  std::optional<std::uint8_t> into_no_go_;  // whose way ahead leads there
+  std::uint32_t areas_ahead_ = 0;           // revision that was judged, with the plan and when below
+  PlanMark plan_ahead_;
+  Instant looked_ahead_at_{};
 };
 
 }  // namespace ivo::firmware

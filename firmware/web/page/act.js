@@ -1,6 +1,6 @@
 // The one thing to do next, always at the same place beside Stop; and why it cannot be done.
 import { allow, by_id, on_press, set_attribute, set_text, show } from "./dom.js";
-import { has_controller, is_old, is_operator, no_start_because, stage_of } from "./judge.js";
+import { has_controller, into_no_go, is_old, is_operator, no_start_because, stage_of } from "./judge.js";
 import { make_hold } from "./hold.js";
 import { model } from "./model.js";
 import { tell } from "./tell.js";
@@ -22,11 +22,11 @@ function next_act(now_ms) {
   switch (stage) {
     case "plan": {
       const plan = model.documents.plan;
-      const works = !old && Boolean(plan) && plan.number === status.plan.number;
+      const works = !old && !status.plan.preparing && Boolean(plan) && plan.number === status.plan.number;
       return status.mode === "planning" ? { id: "enough", works, why: works ? "" : say("enough.not_yet") } : { id: null, works: false, why: "" };
     }
     case "agree":
-      if (!status.plan.accepted) return { id: "accept", works: !old && status.plan.ready, why: old ? say("start.old") : "" };
+      if (!status.plan.accepted) return accept_act(old);
       return start_act(now_ms);
     case "search": return { id: "found", works: !old && has_controller(model), why: "" };
     case "fault": return { id: "clear-fault", works: !old && status.asks === "clearing", why: status.asks === "clearing" ? "" : say("now.fault_wait") };
@@ -35,9 +35,15 @@ function next_act(now_ms) {
   }
 }
 
+function accept_act(old) {
+  const led = into_no_go(model);
+  const why = old ? say("start.old") : led ? say("start.no_go", { name: led.name }) : "";
+  return { id: "accept", works: why === "" && model.status.plan.ready, why };
+}
+
 function start_act(now_ms) {
   const why = no_start_because(model, now_ms);
-  return { id: "hold-start", works: why === null, why: say(why ?? "start.how") };
+  return { id: "hold-start", works: why === null, why: say(why ?? "start.how", { name: into_no_go(model)?.name ?? "" }) };
 }
 
 function asked_already() {

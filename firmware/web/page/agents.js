@@ -15,10 +15,16 @@ const kStep_m = 0.5;
 const kArrows = { ArrowUp: [0, kStep_m], ArrowDown: [0, -kStep_m], ArrowLeft: [-kStep_m, 0], ArrowRight: [kStep_m, 0] };
 
 const markers = [];
+let made_of = "";
 let told_at_ms = 0;
 
+/// A person who walks by themselves; of one who is simulated the controller knows the place.
+export function is_placed_by_hand(agent) {
+  return agent?.kind === "person" && agent.motion === "reported";
+}
+
 export function can_be_placed(agent) {
-  return agents_of(model)[agent]?.kind === "person" && model.link === "open" && has_controller(model) && stage_of(model) !== "end";
+  return is_placed_by_hand(agents_of(model)[agent]) && model.link === "open" && has_controller(model) && stage_of(model) !== "end";
 }
 
 export function tell_position(agent, place) {
@@ -41,7 +47,7 @@ function make_marker(agent, index) {
     opacity: 0.7, fillColor: style.line, fillOpacity: 0.07 });
   marker.addTo(map);
   const entry = { marker, node, pointer, sight, held: false, agent: index };
-  if (agent.kind === "person") make_movable(entry);
+  if (is_placed_by_hand(agent)) make_movable(entry);
   else node.setAttribute("role", "img");
   return entry;
 }
@@ -81,8 +87,19 @@ function put(entry, place) {
   entry.sight.setLatLng(at(place));
 }
 
+function forget_other_mission(agents) {
+  const now = JSON.stringify(agents);
+  if (now === made_of) return;
+  made_of = now;
+  for (const { marker, sight } of markers.splice(0)) {
+    marker.remove();
+    sight.remove();
+  }
+}
+
 export function show_agents() {
   const agents = agents_of(model);
+  forget_other_mission(agents);
   agents.forEach((agent, i) => {
     markers[i] ??= make_marker(agent, i);
     const entry = markers[i];

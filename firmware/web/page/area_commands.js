@@ -1,5 +1,5 @@
 // Areas are the controller's: this sends what somebody did to one, and keeps how to undo it.
-import { areas_of } from "./judge.js";
+import { areas_of, is_operator } from "./judge.js";
 import { changed, model } from "./model.js";
 import { tell } from "./tell.js";
 
@@ -43,6 +43,15 @@ export function all_areas() {
 export function note_replaced(before) {
   push(before);
   changed();
+}
+
+let mission = null;
+
+/// Others may change areas meanwhile, and another mission has others: nothing is undone that somebody else did.
+export function keep_undo() {
+  const other = mission !== null && model.documents.mission?.name !== mission;
+  if ((model.link === "open" && model.status?.n > 0 && !is_operator(model)) || other) undo_stack.length = 0;
+  mission = model.documents.mission?.name ?? mission;
 }
 
 function push(step) {

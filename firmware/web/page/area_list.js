@@ -1,5 +1,5 @@
 // The list of areas, and how to make one: for whom, by hand or by numbers.
-import { can_undo, change_area, undo } from "./area_commands.js";
+import { can_undo, change_area, keep_undo, undo } from "./area_commands.js";
 import { may_change_areas } from "./areas.js";
 import { agents_of, areas_of, is_operator } from "./judge.js";
 import { allow, by_id, make, on_press, set_text, show } from "./dom.js";
@@ -73,6 +73,7 @@ function make_choice(text, agents) {
 }
 
 export function show_area_list() {
+  keep_undo();
   show_choice();
   show_list();
   const may = may_change_areas();

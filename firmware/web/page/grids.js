@@ -23,12 +23,14 @@ const kMostAlpha = 205;
 const grids = {};  // by name: canvas, layer, revision that is painted
 
 function layer_of(name, size) {
+  const bounds = [[0, 0], [size.height_m, size.width_m]];
   if (!grids[name]) {
     const canvas = document.createElement("canvas");
-    const bounds = [[0, 0], [size.height_m, size.width_m]];
     const pane = name === "map" || name === "aerial" ? "ground" : name;
     grids[name] = { canvas, layer: new CanvasOverlay(canvas, bounds, { pane, name }), revision: null };
   }
+  const { layer } = grids[name];
+  if (!layer.getBounds().equals(bounds)) layer.setBounds(bounds);  // another mission's
   return grids[name];
 }
 
@@ -91,6 +93,7 @@ async function fetch_grid(name, revision, mission) {
     if (!reply.ok) throw new Error(String(reply.status));
     if (name === "aerial") {
       const picture = await createImageBitmap(await reply.blob());
+      if (grid.revision !== revision) return;
       grid.canvas.width = picture.width;
       grid.canvas.height = picture.height;
       grid.canvas.getContext("2d").drawImage(picture, 0, 0);
@@ -114,7 +117,8 @@ function is_shown(name) {
 export function show_grids() {
   const mission = model.documents.mission;
   if (!mission) return;
-  for (const [name, revision] of Object.entries(model.grids)) {
+  for (const [name, number] of Object.entries(model.grids)) {
+    const revision = `${model.connection}.${number}`;  // another server counts anew
     if (!["map", "aerial", "probability", "searched"].includes(name)) continue;
     const grid = layer_of(name, mission.map);
     if (grid.revision !== revision) fetch_grid(name, revision, mission);

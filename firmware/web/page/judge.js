@@ -55,6 +55,11 @@ export function stage_of(model) {
   return "agree";
 }
 
+/// The agent whose way ahead leads into an area that was closed after the plan was made; null: nobody's.
+export function into_no_go(model) {
+  return agents_of(model)[model.status?.plan?.into_no_go ?? -1] ?? null;
+}
+
 /// Why nobody can start from this screen now: a key of the words, or null.
 export function no_start_because(model, now_ms) {
   const status = model.status;
@@ -64,6 +69,7 @@ export function no_start_because(model, now_ms) {
   if (!is_operator(model)) return "start.not_operator";
   if (status.stop_held) return "start.stop_held";
   if (status.asks !== "consent") return "start.not_asked";
+  if (into_no_go(model) !== null) return "start.no_go";
   if (!status.plan.accepted) return "start.not_accepted";
   if (!status.start_fresh) return "start.not_fresh";
   return null;

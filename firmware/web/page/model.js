@@ -6,6 +6,7 @@ export const model = {
   link: "connecting",  // connecting, open, closed, unpaired
   heard_at_ms: null,
   hello: null,
+  connection: 0,   // how often somebody has said hello
   status: null,
   drawn: 0,        // the number of the newest status that is drawn, on this connection; 0: none
   documents: {},  // by name: the value
@@ -41,6 +42,7 @@ export function take(message) {
   switch (message.type) {
     case "hello":
       model.hello = message;
+      model.connection += 1;
       if (model.status !== null) model.status = { ...model.status, n: 0 };
       model.drawn = 0;
       // What an earlier connection said may not hold any more.

@@ -9,6 +9,7 @@ let read = null;  // number of the notice that was closed
 
 export function show_notice() {
   const notice = model.documents.notice;
+  if (!notice) read = null;
   const shown = Boolean(notice) && notice.number !== read;
   show(by_id("notice"), shown);
   if (!shown) return;

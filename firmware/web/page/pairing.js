@@ -10,6 +10,7 @@ let shown = false;
 function fault_words(reply) {
   if (reply.error === "wrong_code") return say(reply.left === 1 ? "pairing.wrong_last" : "pairing.wrong", { left: reply.left });
   if (reply.error === "locked") return say("pairing.locked", { wait: reply.wait_s });
+  if (reply.error === "foreign_host" || reply.error === "foreign_origin") return say("pairing.foreign", { host: location.host });
   return say("pairing.failed");
 }
 

@@ -46,7 +46,11 @@ export function regain_controls() {
     return;
   }
   const ghost = status.operator !== null && status.operator.name === hello.name && !status.screens.some((each) => each.screen === status.operator.screen);
-  if (status.operator !== null && !ghost) return;
+  if (status.operator !== null && !ghost) {
+    // Somebody else has chosen to take them. Of the same name it may be this screen's connection that is not known to be lost yet.
+    if (status.operator.name !== hello.name) note_held(false);
+    return;
+  }
   if (ghost && performance.now() - known_at_ms < kGhostMs) return;
   asked_by = hello;
   send("control.request");

@@ -4,7 +4,7 @@ import { is_operator } from "./judge.js";
 import { model } from "./model.js";
 import { note_held } from "./regain.js";
 import { tell } from "./tell.js";
-import { number, say } from "./words.js";
+import { number, say, say_or } from "./words.js";
 
 const kRefused = ["malformed", "too_large", "out_of_order", "replayed", "too_often", "not_allowed", "not_fresh", "no_controller", "by_controller", "foreign_origin",
   "foreign_host", "not_paired", "wrong_code"];
@@ -53,7 +53,7 @@ function show_details() {
   if (!by_id("details").open || !model.status) return;
   const { refused = {}, time_s, mode, plan, areas_revision, question } = model.status;
   const counts = kRefused.filter((key) => key in refused).map((key) => [say(`refused.${key}`), number(refused[key]), `refused-${key}`]);
-  const others = [[say("details.mode"), mode, "detail-mode"], [say("details.plan"), String(plan.number), "detail-plan"],
+  const others = [[say("details.mode"), say_or(`mode.${mode}`, mode), "detail-mode"], [say("details.plan"), String(plan.number), "detail-plan"],
     [say("details.areas"), String(areas_revision), "detail-areas"], [say("details.question"), String(question), "detail-question"],
     [say("details.time"), number(time_s), "detail-time"]];
   const now = JSON.stringify([counts, others]);

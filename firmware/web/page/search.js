@@ -1,6 +1,6 @@
 // While they search: how far everybody is, who has found the object, where a person really is.
-import { can_be_placed } from "./agents.js";
-import { agents_of, done_m, is_unseen, stage_of } from "./judge.js";
+import { can_be_placed, is_placed_by_hand } from "./agents.js";
+import { agents_of, done_m, is_operator, is_unseen, stage_of } from "./judge.js";
 import { initial_of, style_of } from "./colours.js";
 import { by_id, make, on_press, set_attribute, set_text, show } from "./dom.js";
 import { model } from "./model.js";
@@ -33,7 +33,7 @@ function make_rows(agents) {
     });
     return button;
   }));
-  by_id("position-row").replaceChildren(...[...agents.keys()].filter((i) => agents[i].kind === "person").map((i) => {
+  by_id("position-row").replaceChildren(...[...agents.keys()].filter((i) => is_placed_by_hand(agents[i])).map((i) => {
     const button = make("button", { type: "button", id: `position-${i}`, text: say("position", { name: agents[i].name }) });
     on_press(button, () => set_view({ tool: view.tool === "position" ? null : "position", tool_agent: i }));
     return button;
@@ -93,6 +93,7 @@ export function show_search() {
   show(by_id("found-choice"), choosing);
   show_rows();
   keep_awake(searching);
+  show(by_id("awake"), searching && is_operator(model) && !navigator.wakeLock);
   if (searching) {
     set_text(by_id("now-text"), say("now.search_text", {
       time: duration(model.status.search.time_s), share: percent(model.status.search.searched) }));
@@ -113,6 +114,10 @@ async function keep_awake(wanted) {
     wake_lock = lock;
     lock.addEventListener("release", () => { if (wake_lock === lock) wake_lock = null; });
   } catch {
-    wake_lock = {};  // not allowed: asked once, not at every status
+    wake_lock = {};  // not allowed: asked again when somebody comes back to the page, not at every status
   }
 }
+
+document.addEventListener("visibilitychange", () => {
+  if (wake_lock !== null && !wake_lock.release) wake_lock = null;
+});

@@ -114,6 +114,7 @@ export const words = {
   "now.watch_start": "You are watching. Whoever holds the controls starts the robot.",
   "now.search": "The search is on",
   "now.search_text": "{time} so far. {share} of the probability is searched.",
+  "search.awake": "This screen cannot keep itself awake here. Let it not go to sleep: the robot stops when it does.",
   "now.fault": "The robot has a fault",
   "now.fault_text": "{fault} Look at the robot. When all is well, start its wheels again.",
   "now.fault_wait": "{fault} It is not ready to go on yet.",
@@ -138,6 +139,7 @@ export const words = {
   "pause.asked": "Somebody pressed Stop: the robot stands.",
   "pause.beat_lost": "The link to the operator was lost: the robot stopped. Hold Start to go on.",
   "pause.replan": "The robot stands while you agree on a new plan.",
+  "pause.no_go": "A no-go area was drawn on the robot's way: the robot stopped.",
 
   "accept": "Accept this plan",
   "enough": "Take the best so far",
@@ -152,6 +154,7 @@ export const words = {
   "start.stop_held": "A stop button on the robot is pressed.",
   "start.not_asked": "The robot is not asking to start.",
   "start.not_accepted": "Accept the plan first.",
+  "start.no_go": "The plan leads {name} into a no-go area that was drawn later. Plan again.",
   "start.not_fresh": "The link is not steady enough yet.",
 
   "facts.caption": "This plan beside the plan before",
@@ -274,6 +277,14 @@ export const words = {
   "details.title": "Details",
   "details.refused": "Messages that counted for nothing, of all screens:",
   "details.mode": "Mode",
+  "mode.planning": "planning",
+  "mode.starting": "starting",
+  "mode.awaiting consent": "waiting for consent",
+  "mode.searching": "searching",
+  "mode.stopping": "stopping",
+  "mode.done": "done",
+  "mode.fault": "fault",
+  "mode.pausing": "coming to a stop",
   "details.plan": "Plan number",
   "details.areas": "Revision of the areas",
   "details.question": "Question",
@@ -317,6 +328,7 @@ export const words = {
   "notice.start_restricted": "{name} stands in a no-go area. Move the area, or {name}.",
   "notice.nothing_left": "All that may hold the object has been searched.",
   "notice.nothing_in_reach": "{name} cannot see any place that may hold the object. Look at the no-go areas.",
+  "notice.refused": "No other plan could be made with these areas.",
 
   "pairing.title": "Pair this screen",
   "pairing.text": "The robot shows six digits. Enter them here.",
@@ -328,5 +340,6 @@ export const words = {
   "pairing.wrong_last": "That is not the code. 1 try left.",
   "pairing.locked": "Too many tries. Wait {wait} s.",
   "pairing.failed": "That did not work. Try again.",
+  "pairing.foreign": "The robot does not know itself by the name {host}. Use its number, or let --origin name this one.",
   "pairing.some_screen": "A screen",
 };

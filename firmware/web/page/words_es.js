@@ -114,6 +114,7 @@ export const words = {
   "now.watch_start": "Estás mirando. Quien tiene el mando pone en marcha el robot.",
   "now.search": "La búsqueda está en marcha",
   "now.search_text": "{time} hasta ahora. Ya se ha buscado el {share} de la probabilidad.",
+  "search.awake": "Aquí esta pantalla no puede mantenerse encendida. Que no se apague: el robot se para si lo hace.",
   "now.fault": "El robot tiene un fallo",
   "now.fault_text": "{fault} Mira el robot. Cuando todo esté bien, vuelve a encender sus ruedas.",
   "now.fault_wait": "{fault} Aún no puede seguir.",
@@ -138,6 +139,7 @@ export const words = {
   "pause.asked": "Alguien pulsó Parar: el robot está parado.",
   "pause.beat_lost": "Se perdió el enlace con quien tiene el mando: el robot se paró. Mantén pulsado Salir para seguir.",
   "pause.replan": "El robot está parado mientras acordáis otro plan.",
+  "pause.no_go": "Se dibujó una zona prohibida en el camino del robot: el robot se paró.",
 
   "accept": "Aceptar este plan",
   "enough": "Tomar el mejor hasta ahora",
@@ -152,6 +154,7 @@ export const words = {
   "start.stop_held": "Hay un botón de parada pulsado en el robot.",
   "start.not_asked": "El robot no pide salir.",
   "start.not_accepted": "Acepta antes el plan.",
+  "start.no_go": "El plan lleva a {name} a una zona prohibida dibujada después. Planifica otra vez.",
   "start.not_fresh": "El enlace aún no es bastante estable.",
 
   "facts.caption": "Este plan junto al anterior",
@@ -274,6 +277,14 @@ export const words = {
   "details.title": "Detalles",
   "details.refused": "Mensajes que no contaron, de todas las pantallas:",
   "details.mode": "Modo",
+  "mode.planning": "planificando",
+  "mode.starting": "arrancando",
+  "mode.awaiting consent": "espera el acuerdo",
+  "mode.searching": "buscando",
+  "mode.stopping": "parando",
+  "mode.done": "terminado",
+  "mode.fault": "fallo",
+  "mode.pausing": "deteniéndose",
   "details.plan": "Número del plan",
   "details.areas": "Revisión de las zonas",
   "details.question": "Pregunta",
@@ -317,6 +328,7 @@ export const words = {
   "notice.start_restricted": "{name} está en una zona prohibida. Mueve la zona, o a {name}.",
   "notice.nothing_left": "Ya se ha buscado en todo lo que puede tener el objeto.",
   "notice.nothing_in_reach": "{name} no puede ver ningún sitio que pueda tener el objeto. Mira las zonas prohibidas.",
+  "notice.refused": "No se pudo hacer otro plan con estas zonas.",
 
   "pairing.title": "Enlazar esta pantalla",
   "pairing.text": "El robot muestra seis cifras. Escríbelas aquí.",
@@ -328,5 +340,6 @@ export const words = {
   "pairing.wrong_last": "Ese no es el código. Queda 1 intento.",
   "pairing.locked": "Demasiados intentos. Espera {wait} s.",
   "pairing.failed": "No ha funcionado. Prueba otra vez.",
+  "pairing.foreign": "El robot no se conoce por el nombre {host}. Usa su número, o añade este con --origin.",
   "pairing.some_screen": "Una pantalla",
 };

@@ -31,7 +31,7 @@ std::vector<std::int8_t> keepout_grid_of(const std::string& map, const RosMissio
   std::vector<std::int8_t> values = occupancy_of(map, mission);
   std::vector<Polygon> no_go;
   for (const RosArea& area : areas) {
-    if (area.no_go) {
+    if (area.no_go && area.agent.value_or(0) == 0) {  // a person's are open to the robot
       no_go.push_back(area.polygon);
     }
   }

@@ -236,12 +236,36 @@ TEST_F(DialogueDeskTest, SaysWhetherAConsentIsWatched) {
   for (const std::uint32_t watched : {0U, 1U}) {
     show(Mode::kStarting);
     ask_for_consent();
+    ASSERT_EQ(submit(Kind::kAccept, 1), Verdict::kAccepted);
     ASSERT_EQ(submit(Kind::kConsent, watched), Verdict::kAccepted);
     const std::optional<DeskAnswer> answer = desk_.take(Asks::kConsent);
     ASSERT_TRUE(answer);
     EXPECT_EQ(answer->kind, Kind::kConsent);
     EXPECT_EQ(answer->watched, watched == 1);
   }
+}
+
+TEST_F(DialogueDeskTest, AWatchedConsentIsToAPlanThatWasAcceptedAndNotStoppedSince) {
+  ask_for_consent();
+  EXPECT_EQ(submit(Kind::kConsent, 1), Verdict::kNotNow);
+  ASSERT_EQ(submit(Kind::kAccept, 1), Verdict::kAccepted);
+  ASSERT_EQ(submit(Kind::kPause), Verdict::kAccepted);
+  ask_for_consent();
+  EXPECT_EQ(submit(Kind::kConsent, 1), Verdict::kNotNow);
+  EXPECT_EQ(desk_.take(Asks::kConsent), std::nullopt);
+  ASSERT_EQ(submit(Kind::kAccept, 1), Verdict::kAccepted);
+  EXPECT_EQ(submit(Kind::kConsent, 1), Verdict::kAccepted);
+}
+
+TEST_F(DialogueDeskTest, NobodyAgreesToAWayIntoANoGoArea) {
+  ask_for_consent();
+  ASSERT_EQ(submit(Kind::kAccept, 1), Verdict::kAccepted);
+  status_.into_no_go = 1;
+  ask_for_consent();
+  EXPECT_EQ(submit(Kind::kConsent), Verdict::kOutdated);
+  EXPECT_EQ(submit(Kind::kConsent, 1), Verdict::kOutdated);
+  EXPECT_EQ(submit(Kind::kAccept, 1), Verdict::kOutdated);
+  EXPECT_EQ(submit(Kind::kNoConsent), Verdict::kAccepted);
 }
 
 TEST_F(DialogueDeskTest, AreasMayBeDrawnInEveryModeAndARefusedOneChangesNothing) {

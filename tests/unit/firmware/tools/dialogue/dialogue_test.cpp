@@ -14,6 +14,7 @@
 #include "firmware/files/json_value.hpp"
 #include "firmware/tools/planner_object.hpp"
 #include "firmware/tools/run_setup.hpp"
+#include "planner/world/distance.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/firmware/files/written_png.hpp"
 
@@ -275,10 +276,13 @@ TEST_F(DialogueTest, ARefusedReplanGoesBackToThePlanBeforeAndSaysWhyByCodeAndSlo
   // It can be agreed to as before, and another replan can be wanted.
   ASSERT_EQ(put_area(9, 1, 1, 2, console::AreaPurpose::kNoGo, 0), Verdict::kAccepted) << "where the robot stands";
   ASSERT_EQ(replan(), Verdict::kAccepted);
-  ASSERT_TRUE(run_until([&] { return at(json_of(Document::kNotice), "number").count == 2; }));
+  ASSERT_TRUE(run_until([&] { return bytes_of(Document::kNotice).find("start_restricted") != std::string::npos; }));
+  EXPECT_EQ(at(json_of(Document::kNotice), "number").count, 2U);
   EXPECT_EQ(at(json_of(Document::kNotice), "code").text, "start_restricted");
   EXPECT_EQ(at(json_of(Document::kNotice), "agent").count, 0U);
   EXPECT_EQ(at(json_of(Document::kNotice), "slot").kind, Json::Kind::kNull);
+  ASSERT_EQ(submit(Kind::kRemoveArea, 9), Verdict::kAccepted);
+  search_for(2);
   ASSERT_TRUE(run_until_asked(1));
   ASSERT_EQ(submit(Kind::kConsent), Verdict::kAccepted);
   EXPECT_TRUE(run_until(Mode::kSearching));
@@ -319,6 +323,65 @@ TEST_F(DialogueTest, AReplanUnderWayStartsWhereEverybodyIsAndLeavesOutWhatIsSear
   EXPECT_NEAR(sum, 1.0, 1e-6);
   ASSERT_EQ(submit(Kind::kConsent), Verdict::kAccepted);
   ASSERT_TRUE(run_until(Mode::kSearching));
+}
+
+// On the way of an agent, well beyond where it starts.
+Point ahead(const planner::AgentPath& path) { return path.waypoints[path.waypoints.size() / 2]; }
+
+TEST_F(DialogueTest, NobodySetsOffIntoAnAreaThatWasClosedAfterThePlan) {
+  ASSERT_TRUE(run_until_asked(1));
+  const Point there = ahead(loop_->plan().paths[0]);
+  ASSERT_EQ(put_area(3, there.x_m - 0.2, there.y_m - 0.2, 0.4, console::AreaPurpose::kNoGo, 1), Verdict::kAccepted);
+  search_for(2);
+  EXPECT_EQ(shown().into_no_go, console::Status::kNobody) << "closed to Ana alone, whose way is another";
+  ASSERT_EQ(put_area(3, there.x_m - 0.2, there.y_m - 0.2, 0.4, console::AreaPurpose::kNoGo, 0), Verdict::kAccepted);
+  search_for(2);
+  EXPECT_EQ(shown().into_no_go, 0);
+  EXPECT_EQ(submit(Kind::kAccept, 1), Verdict::kOutdated);
+  EXPECT_EQ(submit(Kind::kConsent), Verdict::kOutdated);
+  ASSERT_EQ(replan(), Verdict::kAccepted);
+  ASSERT_TRUE(run_until_asked(2));
+  EXPECT_EQ(shown().into_no_go, console::Status::kNobody);
+  EXPECT_EQ(submit(Kind::kConsent), Verdict::kAccepted);
+  EXPECT_TRUE(run_until(Mode::kSearching));
+}
+
+TEST_F(DialogueTest, AnAreaThatIsOpenedAgainIsNoCauseToWait) {
+  ASSERT_TRUE(run_until_asked(1));
+  const Point there = ahead(loop_->plan().paths[0]);
+  ASSERT_EQ(put_area(3, there.x_m - 0.2, there.y_m - 0.2, 0.4, console::AreaPurpose::kNoGo, 0), Verdict::kAccepted);
+  search_for(2);
+  ASSERT_EQ(submit(Kind::kConsent), Verdict::kOutdated);
+  ASSERT_EQ(submit(Kind::kRemoveArea, 3), Verdict::kAccepted);
+  search_for(2);
+  EXPECT_EQ(submit(Kind::kConsent), Verdict::kAccepted);
+}
+
+TEST_F(DialogueTest, ARobotStandsBeforeAnAreaThatIsClosedAheadOfItAndNotForOneBehindIt) {
+  search();
+  const Point start = loop_->status().robot.point();
+  search_for(100);  // five seconds
+  ASSERT_GT(planner::distance_m(start, loop_->status().robot.point()), 1.0);
+  ASSERT_EQ(put_area(3, start.x_m - 0.2, start.y_m - 0.2, 0.4, console::AreaPurpose::kNoGo, 0), Verdict::kAccepted);
+  search_for(20);
+  EXPECT_EQ(loop_->status().mode, Mode::kSearching);
+  const Point end = loop_->plan().paths[0].waypoints.span().back();
+  ASSERT_EQ(put_area(4, end.x_m - 0.2, end.y_m - 0.2, 0.4, console::AreaPurpose::kNoGo, 0), Verdict::kAccepted);
+  ASSERT_TRUE(run_until([&] { return shown().asks == Asks::kConsent; }));
+  EXPECT_EQ(loop_->status().pause_cause, PauseCause::kNoGo);
+  EXPECT_EQ(submit(Kind::kConsent), Verdict::kOutdated);
+}
+
+TEST_F(DialogueTest, ANoticeGoesWithTheNextTry) {
+  ASSERT_TRUE(run_until_asked(1));
+  ASSERT_EQ(put_area(3, 1, 1, 1, console::AreaPurpose::kNoGo, 0), Verdict::kAccepted);  // where the robot stands
+  ASSERT_EQ(replan(), Verdict::kAccepted);
+  ASSERT_TRUE(run_until_asked(1));
+  EXPECT_EQ(at(json_of(Document::kNotice), "code").text, "start_restricted");
+  ASSERT_EQ(submit(Kind::kRemoveArea, 3), Verdict::kAccepted);
+  ASSERT_EQ(replan(), Verdict::kAccepted);
+  ASSERT_TRUE(run_until_asked(2));
+  EXPECT_EQ(bytes_of(Document::kNotice), "");
 }
 
 TEST_F(DialogueTest, NothingLeftToSearchIsSaidSo) {
