@@ -32,7 +32,7 @@ std::optional<Message> message_of(console::Kind kind, std::span<const std::byte>
 bool sound(const console::Status& status) {
   const auto finite = [](double number) { return std::isfinite(number); };
   return status.agents <= console::kAgents && status.fault.back() == '\0' &&
-         status.pause_cause <= static_cast<std::uint8_t>(PauseCause::kReplan) &&
+         status.pause_cause <= static_cast<std::uint8_t>(PauseCause::kNoGo) &&
          status.asks <= console::Asks::kClearing && finite(status.beat_age_s) && finite(status.expected_time_s) &&
          finite(status.unseen_mass) && finite(status.horizon_s) && finite(status.searched_mass) &&
          finite(status.heading_rad) &&

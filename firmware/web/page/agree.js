@@ -1,7 +1,7 @@
 // What is to be agreed now: where the plan stands, what it asks, and why the robot stands.
 import { by_id, on_press, set_attribute, set_text, show } from "./dom.js";
 import { advice_of, fault_words } from "./state_words.js";
-import { agents_of, is_operator, stage_of } from "./judge.js";
+import { agents_of, into_no_go, is_operator, stage_of } from "./judge.js";
 import { model } from "./model.js";
 import { show_asked } from "./asked.js";
 import { show_facts } from "./facts.js";
@@ -51,6 +51,7 @@ export function show_agree() {
     finder: agents_of(model)[model.status?.search?.finder]?.name ?? "",
     number: model.status?.plan?.number ?? "",
     fault: fault_words(model, say),
+    name: into_no_go(model)?.name ?? "",
   };
   set_text(by_id("now-title"), say(title, values));
   set_text(by_id("now-text"), say(text, values));

@@ -61,6 +61,7 @@ export function fit_map(size) {
       paddingTopLeft: [kEdge_px, kEdge_px], paddingBottomRight: [buttons_px > 0 ? buttons_px + 2 * kEdge_px : kEdge_px, kEdge_px], animate: false });
   };
   touched = false;
+  map.setMaxBounds(null);  // of the map before
   refit();
   map.setMaxBounds(bounds.pad(0.35));  // after it, or it pans there from elsewhere
 }

@@ -1,6 +1,6 @@
 // What the robot does, and what somebody may do now, in words: which sentence fits the model. The sentences themselves are in
 // words_en.js and words_es.js.
-import { agents_of, has_ended, is_operator, stage_of } from "./judge.js";
+import { agents_of, has_ended, into_no_go, is_operator, stage_of } from "./judge.js";
 
 /// A key of the words, what stands in the sentence, and its tone: calm, busy, moving, warn, bad.
 export function state_words(model) {
@@ -60,6 +60,7 @@ export function advice_of(model) {
     default: break;
   }
   const resumed = status.search.started;
+  if (into_no_go(model) !== null) return [resumed ? "now.paused" : "now.no_go", "start.no_go"];
   if (status.plan.accepted) return [resumed ? "now.paused" : "now.accepted", watching ? "now.watch_start" : resumed ? "now.go_on_text" : "now.accepted_text"];
   if (resumed && !watching && status.pause_cause !== "replan") return ["now.paused", "now.again_text"];
   const title = status.plan.with_preferences ? "now.agree_with" : "now.agree_free";

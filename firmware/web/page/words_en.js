@@ -118,6 +118,7 @@ export const words = {
   "now.fault": "The robot has a fault",
   "now.fault_text": "{fault} Look at the robot. When all is well, start its wheels again.",
   "now.fault_wait": "{fault} It is not ready to go on yet.",
+  "now.no_go": "This plan does not fit any more",
   "fault.start_up": "{wheel} did not start as it should.",
   "fault.drive": "{wheel} reported a fault of its motor.",
   "fault.silent": "{wheel} does not answer any more.",

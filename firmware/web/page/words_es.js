@@ -118,6 +118,7 @@ export const words = {
   "now.fault": "El robot tiene un fallo",
   "now.fault_text": "{fault} Mira el robot. Cuando todo esté bien, vuelve a encender sus ruedas.",
   "now.fault_wait": "{fault} Aún no puede seguir.",
+  "now.no_go": "Este plan ya no vale",
   "fault.start_up": "{wheel} no arrancó como debía.",
   "fault.drive": "{wheel} avisa de un fallo de su motor.",
   "fault.silent": "{wheel} ya no responde.",
