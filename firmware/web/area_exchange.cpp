@@ -88,9 +88,10 @@ Result<void> judge_areas(const std::vector<Request>& puts, const MissionFacts& f
       std::memcpy(&area, packet->data(), sizeof(area));
     }
     if (board.put(area) != console::Verdict::kAccepted) {
-      return Error{"areas.geojson: feature " + std::to_string(i + 1) +
-                   ": lies off the map, is no area, or is one too many of its agent; expected areas on the map, at most " +
-                   std::to_string(limits::kAreas) + " of a kind for each agent"};
+      return Error{
+          "areas.geojson: feature " + std::to_string(i + 1) +
+          ": lies off the map, is no area, or is one too many of its agent; expected areas on the map, at most " +
+          std::to_string(limits::kAreas) + " of a kind for each agent"};
     }
   }
   return {};

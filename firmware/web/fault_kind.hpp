@@ -7,8 +7,8 @@
 
 namespace ivo::firmware::web {
 
-/// `none`, `start_up`, `drive`, `silent`, `power`, `wheel`, `slip`, `wiring`, `computer`, `stop_input`; of a reason that
-/// this program does not know, `unknown`.
+/// `none`, `start_up`, `drive`, `silent`, `power`, `wheel`, `slip`, `wiring`, `computer`, `stop_input`; of a reason
+/// that this program does not know, `unknown`.
 [[nodiscard]] std::string_view fault_kind(drivers::DriveFaultReason reason) noexcept;
 
 }  // namespace ivo::firmware::web
