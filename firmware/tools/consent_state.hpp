@@ -38,6 +38,8 @@ class ConsentState {
   [[nodiscard]] bool after_fault() const noexcept { return after_fault_; }
   /// True once, until it is withdrawn: the question is to be put.
   [[nodiscard]] bool ask() noexcept { return !std::exchange(asked_, true); }
+  /// What was said cannot count.
+  void ask_again() noexcept { (void)forget(); }
   /// `told`: the loop has taken the answer.
   void answer(bool told) noexcept { answered_ = told; }
   [[nodiscard]] bool answered() const noexcept { return answered_; }

@@ -234,7 +234,8 @@ bool RunSession::seek_consent(const LoopStatus& status) {
     consent_.answer(loop_.command(OperatorCommand::kPlanNotKept));
     return false;
   }
-  if (consent_.beforehand()) {
+  const bool into_no_go = console_ != nullptr && console_->dialogue().may_not_set_off();
+  if (consent_.beforehand() && !into_no_go) {
     consent_.answer(loop_.command(OperatorCommand::kConsent));
     return false;
   }
@@ -251,7 +252,10 @@ bool RunSession::seek_consent(const LoopStatus& status) {
     }
   }
   const RunConsole::Said said = answer_to(question_, console::Asks::kConsent);
-  if (said.answer == Answer::kYes) {
+  if (said.answer == Answer::kYes && into_no_go) {
+    say("consent", "the plan leads into a no-go area that was drawn later; expected another plan first: ivo console replan");
+    consent_.ask_again();
+  } else if (said.answer == Answer::kYes) {
     OperatorCommand consent(OperatorCommand::kConsent);
     consent.watched = said.watched;
     consent.pauses = status.pauses;

@@ -14,7 +14,8 @@ ANSWER, STATUS, DOCUMENT_PART = 101, 102, 103
 NOTHING, FOR_CONSENT, FOR_CLEARING = range(3)
 PLANNING, STARTING, AWAITING_CONSENT, SEARCHING, STOPPING, DONE, FAULT, PAUSING = range(8)
 RUNNING, SEARCH_FOUND, PATHS_ENDED = range(3)
-NO_PAUSE, PAUSE_ASKED, BEAT_LOST, PAUSE_TO_REPLAN = range(4)
+NO_PAUSE, PAUSE_ASKED, BEAT_LOST, PAUSE_TO_REPLAN, PAUSE_FOR_NO_GO = range(5)
+NOBODY = 255
 PREFERRED, NO_GO, EVERYBODY = 0, 1, 255
 DOCUMENTS = ("mission", "map", "aerial", "probability", "searched", "plan", "previous_plan", "areas", "notice", "report")
 
@@ -30,20 +31,20 @@ MOST_MESSAGES = 24_000  # of ten minutes
 Reply = namedtuple("Reply", "of_sequence verdict")
 Agent = namedtuple("Agent", "x_m y_m moved_m left_m path_ended reported report_age_s")
 Status = namedtuple("Status", """question asks mode search stop_cause plan_ready search_started finished finder plan_number areas_revision
-    accepted preparing with_preferences pause_cause watched beat_age_s generation expected_time_s searched_mass agents fault cycles messages
+    accepted preparing with_preferences pause_cause watched into_no_go beat_age_s generation expected_time_s searched_mass agents fault cycles messages
     answers_dropped statuses_dropped clients""")
 
 
 def status_of(packet):
     question, asks, mode, search, _, stop_cause, ready, started, _, finished, finder, _, agents = struct.unpack_from("<I12B", packet, 24)
-    plan, areas, accepted, preparing, preferences, pause, watched, beat = struct.unpack_from("<II5B11xd", packet, 48)
+    plan, areas, accepted, preparing, preferences, pause, watched, into_no_go, beat = struct.unpack_from("<II5BxB9xd", packet, 48)
     generation, _, expected = struct.unpack_from("<iid", packet, 80)
     searched, = struct.unpack_from("<d", packet, 120)
     people = [Agent(*struct.unpack_from("<4dIId", packet, 136 + 48 * i)) for i in range(agents)]
     fault = packet[520:680].split(b"\0", 1)[0].decode()
     messages = struct.unpack_from("<17Q", packet, 752)
     return Status(question, asks, mode, search, stop_cause, ready, started, finished, finder, plan, areas, accepted, preparing, preferences, pause,
-                  watched, beat, generation, expected, searched, people, fault, *struct.unpack_from("<Q", packet, 680), messages,
+                  watched, into_no_go, beat, generation, expected, searched, people, fault, *struct.unpack_from("<Q", packet, 680), messages,
                   *struct.unpack_from("<QQI", packet, 888))
 
 

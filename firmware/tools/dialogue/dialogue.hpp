@@ -41,6 +41,8 @@ class Dialogue {
   void complete(console::Status& status) const;
   /// A plan is being made anew: nothing is to be agreed to.
   [[nodiscard]] bool preparing() const noexcept { return step_ != Step::kIdle; }
+  /// The plan leads somebody into an area that was closed after it was made: nobody is to set off.
+  [[nodiscard]] bool may_not_set_off() const noexcept { return into_no_go_.has_value(); }
   /// What was read, and the planner of the loop's plan; changes with observe().
   [[nodiscard]] const RunView& view() const noexcept { return views_[current_]; }
   /// Why the areas are not kept; none while they are.
