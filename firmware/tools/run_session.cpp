@@ -253,7 +253,8 @@ bool RunSession::seek_consent(const LoopStatus& status) {
   }
   const RunConsole::Said said = answer_to(question_, console::Asks::kConsent);
   if (said.answer == Answer::kYes && into_no_go) {
-    say("consent", "the plan leads into a no-go area that was drawn later; expected another plan first: ivo console replan");
+    say("consent",
+        "the plan leads into a no-go area that was drawn later; expected another plan first: ivo console replan");
     consent_.ask_again();
   } else if (said.answer == Answer::kYes) {
     OperatorCommand consent(OperatorCommand::kConsent);
