@@ -206,7 +206,8 @@ struct Status {
   std::uint8_t watched = 0;           ///< consent counts only while kBeat comes
   std::uint8_t fault_wheel = 0;       ///< config's Wheel; counts where fault_node_id is not 0
   std::uint8_t into_no_go = kNobody;  ///< agent whose way ahead leads into an area that is closed to it
-  std::array<std::uint8_t, 9> zero{};
+  std::uint8_t plan_followed = 0;     ///< somebody has set off on the plan `plan_number`
+  std::array<std::uint8_t, 8> zero{};
   double beat_age_s = -1.0;  ///< since the last kBeat; negative: never
 
   // The planner.

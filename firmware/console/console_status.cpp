@@ -67,6 +67,7 @@ Status status_of(const LoopStatus& loop, int agents) {
   status.heading_rad = loop.robot.heading_rad;
   status.plan_number = loop.plan_number;
   status.preparing = as_byte(loop.preparing);
+  status.plan_followed = as_byte(loop.way_followed && loop.way_of_plan == loop.plan_number);
   status.pause_cause = number_of(loop.pause_cause);
   status.watched = as_byte(loop.watched);
   status.beat_age_s = loop.beat_age ? seconds(*loop.beat_age) : -1.0;

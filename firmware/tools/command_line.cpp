@@ -113,6 +113,9 @@ std::string command_fault(const CLI::App& app, int argc, const char* const* argv
     return {};
   }
   const std::string of = place == 1 ? "" : " of " + app.get_name();
+  if (place > 1 && word.starts_with('-')) {
+    return "\"" + word + "\" stands before the command" + of + "; expected it behind one of " + names;
+  }
   return (argc > place ? "no command" + of + " is called \"" + word + "\"" : "no command" + of) + "; expected " + names;
 }
 
@@ -275,8 +278,8 @@ CLI::App* add_console(CLI::App& app, ConsoleOptions& options) {
   constexpr double kFarthest_m = 1e6;
   add_number(*position, "X", options.x_m, 0.0, kFarthest_m, "Metres from the map's left border")->required();
   add_number(*position, "Y", options.y_m, 0.0, kFarthest_m, "Metres from the map's lower border")->required();
-  add("pause", "The robot ramps down and stands until somebody agrees anew", ConsoleVerb::kPause);
-  add("stop", "The robot ramps down, the run ends", ConsoleVerb::kStop);
+  add("pause", "As Stop on the page: the robot ramps down and stands until somebody agrees anew", ConsoleVerb::kPause);
+  add("stop", "The robot ramps down, the run ends and cannot go on", ConsoleVerb::kStop);
   add("clear", "After a fault: start the drives up again; nothing moves before consent anew", ConsoleVerb::kClear);
   return console;
 }

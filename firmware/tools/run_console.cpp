@@ -45,6 +45,9 @@ RunConsole::RunConsole(console::Listener listener, ControlLoop& loop, MissionInp
       socket_(std::move(listener), desk_) {}
 
 void RunConsole::show(const LoopStatus& status, console::Asks asks, bool taken_up) {
+  if (status.counters.cycles == 0) {
+    return;  // the loop has said nothing yet
+  }
   console::Status shown = console::status_of(status, agents_);
   shown.taken_up = taken_up && !status.consented ? 1 : 0;
   dialogue_->complete(shown);

@@ -61,6 +61,7 @@ Result<void> run_console(const ConsoleOptions& options, const std::atomic<bool>&
     for (const Paired& paired : tokens.value().all()) {
       out << line_of(paired);
     }
+    out << (tokens.value().size() == 0 ? "nobody is paired\n" : "");
     return {};
   }
   const Result<Site> site = Site::read(options.page, options.leaflet);

@@ -37,6 +37,7 @@ void put_plan(const console::Status& status, CompactJson& json) {
   json.key("accepted").flag(status.accepted != 0);
   json.key("preparing").flag(status.preparing != 0);
   json.key("with_preferences").flag(status.with_preferences != 0);
+  json.key("followed").flag(status.plan_followed != 0);
   json.key("into_no_go");
   status.into_no_go == console::Status::kNobody ? json.null() : json.count(status.into_no_go);
   json.key("generation").number(status.generation);

@@ -74,6 +74,10 @@ class WebServerTest(unittest.TestCase):
     def code(self):
         return self.line(r".*the (?:pairing code is|code is now) (\d{6})")[1]
 
+    def shown_code(self):
+        """As the robot's own screen shows it: what holds now, where a line may still be on its way."""
+        return re.search(r"(?<!\d)\d{6}(?!\d)", self.get("/screen", host=f"localhost:{self.port}").body.decode())[0]
+
     def get(self, path, token=None, **keys):
         headers = [f"Cookie: ivo={token}"] if token else []
         return request(self.port, "GET", path, headers=headers, wrap=self.wrap, **keys)

@@ -18,19 +18,33 @@ from screen import Screen
 
 CONSOLE = os.path.join(BUILD_DIR, "ivo-console")
 PAGE = os.path.join(SOURCE_DIR, "firmware", "web", "page")
+ROBOT = os.path.join(SOURCE_DIR, "config", "robots", "ivo.toml")
+OWN_ROBOT = "own_robot.toml"  # beside a test's mission
+SHIPPED_TIMEOUT_S = 2.0       # without a beat of the operator's page, of config/robots/ivo.toml
+LONG_TIMEOUT_S = 30.0         # of a test that is not about beats: a page that is judged, or has a slow machine, sends none for a while
+ENDLESS = 1_000_000           # generations, the most that a mission may have: planning lasts until somebody has enough
 PATIENCE_S = 30
 
 
-def courtyard(object_place, motion="reported", generations=6):
-    """The courtyard's mission, soon planned: the object at `object_place`, or "unknown"."""
-    with open(COURTYARD, encoding="utf-8") as file:
+def replaced(path, *pairs):
+    with open(path, encoding="utf-8") as file:
         text = file.read()
-    for old, new in (('object = "drawn"', f"object = {json.dumps(object_place)}"), ('motion = "simulated"', f'motion = "{motion}"'),
-                     ("generations = 40", f"generations = {generations}"), ('"../', f'"{SOURCE_DIR}/config/'),
-                     ("preferred = [{ rectangle_m = [4.0, 17.0, 20.0, 26.9] }]", "preferred = []")):
+    for old, new in pairs:
         assert old in text, old
         text = text.replace(old, new)
     return text
+
+
+def courtyard(object_place, motion="reported", generations=6):
+    """The courtyard's mission, soon planned: the object at `object_place`, or "unknown". The robot is the test's own."""
+    return replaced(COURTYARD, ('object = "drawn"', f"object = {json.dumps(object_place)}"), ('motion = "simulated"', f'motion = "{motion}"'),
+                    ("generations = 40", f"generations = {generations}"), ('"../robots/ivo.toml"', f'"{OWN_ROBOT}"'), ('"../', f'"{SOURCE_DIR}/config/'),
+                    ("preferred = [{ rectangle_m = [4.0, 17.0, 20.0, 26.9] }]", "preferred = []"))
+
+
+def robot(operator_timeout_s):
+    """As it is shipped, but for how long it goes on without a beat."""
+    return replaced(ROBOT, (f"\noperator_timeout_s = {SHIPPED_TIMEOUT_S} ", f"\noperator_timeout_s = {operator_timeout_s} "))
 
 
 class ConsoleTest(unittest.TestCase):
@@ -59,12 +73,13 @@ class ConsoleTest(unittest.TestCase):
             process.listener.join()
             process.stdout.close()
 
-    def start_controller(self, mission=None, *more, speed="1"):
-        """`mission` None: the one that is there already."""
+    def start_controller(self, mission=None, *more, speed="1", operator_timeout_s=LONG_TIMEOUT_S):
+        """`mission` None: the one that is there already, and its robot."""
         path = os.path.join(self.folder, "mission.toml")
         if mission is not None:
-            with open(path, "w", encoding="utf-8") as file:
-                file.write(mission)
+            for name, text in (("mission.toml", mission), (OWN_ROBOT, robot(operator_timeout_s))):
+                with open(os.path.join(self.folder, name), "w", encoding="utf-8") as file:
+                    file.write(text)
         with open(os.path.join(self.folder, "controller.log"), "a", encoding="utf-8") as log:
             self.controller = self.start([IVO, "run", path, "--console", self.socket, "--speed", speed, "--out", self.out, "--stats", self.stats, *more],
                                          stdout=log, stderr=log)
@@ -98,8 +113,8 @@ class ConsoleTest(unittest.TestCase):
         with open(os.path.join(self.folder, "controller.log"), encoding="utf-8") as file:
             return file.read()[-2000:]
 
-    def begin(self, object_place="unknown", motion="reported", speed="1", generations=6):
-        self.start_controller(courtyard(object_place, motion, generations), speed=speed)
+    def begin(self, object_place="unknown", motion="reported", speed="1", generations=6, operator_timeout_s=LONG_TIMEOUT_S):
+        self.start_controller(courtyard(object_place, motion, generations), speed=speed, operator_timeout_s=operator_timeout_s)
         self.start_server()
 
     def new_code(self):

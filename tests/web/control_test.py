@@ -6,6 +6,8 @@ import unittest
 from console_rig import ConsoleTest
 
 YOU = "document.getElementById('control-text').textContent === 'You hold the controls.'"
+ASKS = "document.getElementById('act-why').textContent.includes(' is asked.')"
+IS_ASKED = "!document.getElementById('request').hidden"
 
 
 class Control(ConsoleTest):
@@ -38,16 +40,14 @@ class Control(ConsoleTest):
 
     def test_the_controls_are_asked_for_kept_and_given(self):
         ana, luis = self.ana, self.luis
-        luis.act("take-control", "document.getElementById('act-why').textContent.includes(' is asked.')")
-        ana.wait("!document.getElementById('request').hidden")
+        luis.act("take-control", ASKS)
+        ana.wait(IS_ASKED)
         self.assertIn("Luis's phone asks for the controls", ana.text("request-text"))
-        ana.judge("asked")
-        luis.judge("asking")
         ana.press("control-keep")
-        luis.wait("!document.getElementById('act-why').textContent.includes(' is asked.')")
+        luis.wait(f"!{ASKS}")
         ana.wait(YOU)
-        luis.act("take-control", "document.getElementById('act-why').textContent.includes(' is asked.')")
-        ana.wait("!document.getElementById('request').hidden")
+        luis.act("take-control", ASKS)
+        ana.wait(IS_ASKED)
         ana.press("control-give")
         luis.wait(YOU)
         ana.wait_text("link-operator", "Luis's phone holds the controls")
@@ -55,13 +55,31 @@ class Control(ConsoleTest):
         self.assertEqual(ana.js("return document.querySelectorAll('#screen-list li').length"), 2)
         ana.judge("screens")
 
+    def judge_while_asked(self, screen, name, still):
+        """Who does not answer within ten seconds has given the controls: what was judged until then was another page. Then it is asked again."""
+        ana, luis = self.ana, self.luis
+        for _ in range(5):
+            luis.act("take-control", ASKS)
+            ana.wait(IS_ASKED)
+            screen.judge(name)
+            if screen.js(f"return {still}"):
+                ana.press_until("control-keep", f"!({IS_ASKED})")
+                if luis.wait(f"!({ASKS})") and ana.js(f"return {YOU}"):
+                    return
+            ana.act("take-control", YOU)
+        raise AssertionError(f"{name}: the ten seconds were over each time before it was judged")
+
+    def test_the_page_is_sound_while_one_asks(self):
+        self.judge_while_asked(self.ana, "asked", IS_ASKED)
+        self.judge_while_asked(self.luis, "asking", ASKS)
+
     def test_they_are_free_after_the_holder_has_gone(self):
         self.ana.browser.driver.get("about:blank")
         self.luis.wait_text("act-why", "Nobody holds the controls")
         self.luis.act("take-control", YOU)
 
     def test_they_go_over_when_the_holder_does_not_answer(self):
-        self.luis.act("take-control", "document.getElementById('act-why').textContent.includes(' is asked.')")
+        self.luis.act("take-control", ASKS)
         self.luis.wait(YOU)
         self.ana.wait_text("link-operator", "Luis's phone holds the controls")
 

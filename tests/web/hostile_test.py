@@ -13,6 +13,7 @@ from websocket_client import BINARY, Refused, WebSocket, frame, request
 MESSAGES = 250_000  # over WebSockets, of all kinds
 HTTP_REQUESTS = 500
 SEED = 7
+CYCLE_S = 0.002  # of config/robots/ivo.toml
 
 
 def hostile_frames(random_):
@@ -86,9 +87,18 @@ class Hostile(ConsoleTest):
         for thread in threads:
             thread.start()
         shown = set()
+        times_s = [ana.model("model.status.time_s")]
+        beats = 0
         while any(thread.is_alive() for thread in threads):
             shown.add(ana.js("return Number(document.getElementById('agent-progress-0').value)"))
+            time_s, mode, fresh = ana.model("[model.status.time_s, model.status.mode, model.status.start_fresh]")
+            self.assertEqual(mode, "searching")
+            times_s.append(time_s)
+            beats += fresh
         self.assertGreater(len(shown), 3, "the robot's way did not grow")
+        self.assertGreater(beats, 0, "no beat of hers came through")
+        self.assertGreater(len(set(times_s)), 3, "the controller's clock did not go on")
+        self.assertEqual(times_s, sorted(times_s))
         ana.wait_state("searching")
         ana.press("tab-screens")
         ana.press_details()
@@ -108,6 +118,12 @@ class Hostile(ConsoleTest):
         with open(self.stats, encoding="utf-8") as file:
             stats = json.load(file)
         self.assertEqual([stats[key] for key in ("commands_refused", "frames_refused", "frames_lost", "frames_not_sent")], [0, 0, 0, 0])
+        # How many periods have no cycle says how busy this machine is as well, and is only told. That cycles went on beside the flood is shown by the time that
+        # each tells the page, and by the robot's way, which is gone cycle by cycle: every period has a cycle or is counted as one without.
+        periods = stats["cycles"] + stats["periods_skipped"]
+        self.assertGreater(stats["cycles"], 0)
+        self.assertGreater(periods * CYCLE_S, times_s[-1] - times_s[0])
+        print(f"{stats['periods_skipped']} of {periods} periods without a cycle, {MESSAGES} hostile messages beside them")
         modes = [each["mode"] for each in self.events() if each["event"] == "mode"]
         self.assertNotIn("fault", modes)
         # Nothing in between: consent, the search, and its end.

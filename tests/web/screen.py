@@ -30,10 +30,13 @@ function look() {
 }
 look();
 """
+# An expression of JavaScript over `model`, the newest state as the page has it.
+OF_MODEL = "import('/model.js').then(({ model }) => (%s))"
+SOME_GENERATIONS = 10  # after which a plan is no chance find
 # What a browser says when a server is gone, or when a screen is not paired yet: these a test may have caused.
 CAUSED = ("net::ERR_CONNECTION_REFUSED", "net::ERR_CONNECTION_RESET", "net::ERR_INTERNET_DISCONNECTED", "net::ERR_EMPTY_RESPONSE",
           "net::ERR_SOCKET_NOT_CONNECTED", "Unexpected response code: 403", "responded with a status of 403", "ERR_NETWORK_CHANGED", "Connection closed before",
-          "responded with a status of 404")
+          "responded with a status of 404", "Page entered Back-Forward Cache")
 
 
 class Screen:
@@ -58,19 +61,34 @@ class Screen:
     def js(self, script, *values):
         return self.browser.driver.execute_script(script, *values)
 
-    def wait(self, condition, *values, patience_s=PATIENCE_S):
-        """`condition` is an expression of JavaScript; its value when it is true."""
+    def comes(self, condition, *values, patience_s=PATIENCE_S):
+        """`condition` is an expression of JavaScript; its value when it is true, or None when that did not come."""
         end = time.monotonic() + patience_s
-        while time.monotonic() < end:
+        while True:
             try:
                 found = self.js(f"return {condition}", *values)
             except JavascriptException:
                 found = None  # an element that is not there yet
             if found:
                 return found
+            if time.monotonic() > end:
+                return None
             time.sleep(0.05)
-        self.browser.picture(f"failed-{self.test.id().split('.')[-1]}")
-        raise AssertionError(f"{self.name}: {condition} did not come; it shows {self.words()}")
+
+    def wait(self, condition, *values, patience_s=PATIENCE_S):
+        """As above, and it must come."""
+        found = self.comes(condition, *values, patience_s=patience_s)
+        if found is None:
+            self.browser.picture(f"failed-{self.test.id().split('.')[-1]}")
+            raise AssertionError(f"{self.name}: {condition} did not come; it shows {self.words()}")
+        return found
+
+    def model(self, value):
+        """What the page's own modules say: `model` is what the server said last."""
+        return self.js(f"return {OF_MODEL % value}")
+
+    def wait_model(self, condition, *values, patience_s=PATIENCE_S):
+        return self.wait(OF_MODEL % condition, *values, patience_s=patience_s)
 
     def words(self):
         return self.js("""const text = (id) => document.getElementById(id)?.textContent ?? null;
@@ -83,8 +101,13 @@ class Screen:
     def wait_text(self, name, part):
         return self.wait("document.getElementById(arguments[0]).textContent.includes(arguments[1])", name, part)
 
-    def wait_stage(self, stage):
-        self.wait("document.body.dataset.stage === arguments[0]", stage)
+    def wait_words(self, name, key):
+        """A sentence of words_en.js, whatever stands in it."""
+        self.wait("""import("/words_en.js").then(({ words }) =>
+            words[arguments[1]].split(/\\{\\w+\\}/).every((part) => document.getElementById(arguments[0]).textContent.includes(part)))""", name, key)
+
+    def wait_stage(self, stage, patience_s=PATIENCE_S):
+        self.wait("document.body.dataset.stage === arguments[0]", stage, patience_s=patience_s)
 
     def wait_state(self, state):
         self.wait("document.getElementById('head').dataset.state === arguments[0]", state)
@@ -137,26 +160,61 @@ class Screen:
     def take_controls(self):
         self.act("take-control", "document.getElementById('control-text').textContent === 'You hold the controls.'")
 
+    def plan_number(self):
+        return self.model("model.status.plan.number")
+
+    def wait_plan_after(self, number):
+        """Another plan than that one is ready to be accepted: its making may have been too short to be seen. Its number."""
+        self.wait_model("model.status.plan.number > arguments[0] && model.status.plan.ready && model.documents.plan.number === model.status.plan.number", number)
+        self.wait_act("accept")
+        return self.plan_number()
+
+    def wait_planning_after(self, number):
+        """Another plan than that one is being made, and the best so far is good for something; it lasts until somebody has enough."""
+        self.wait_model("model.status.plan.number > arguments[0] && model.status.mode === 'planning' && model.status.plan.generation >= arguments[1] && "
+                        "model.documents.plan.number === model.status.plan.number", number, SOME_GENERATIONS)
+        self.wait_stage("plan")
+
+    def enough(self):
+        """The best plan so far is taken."""
+        self.act("enough", "document.body.dataset.stage === 'agree'")
+        self.wait_act("accept")
+
     def hold_start(self, on_the_way=lambda: None):
-        """Until its ring is full."""
+        """Until its ring is full, and that has counted. A page whose link is not steady meanwhile counts nothing as held: then it is held again. The
+        number of the question that was answered."""
+        held = "document.getElementById('hold-start').classList.contains('held')"
+        ready = "document.body.dataset.act === 'hold-start' && document.getElementById('hold-start').ariaDisabled !== 'true'"
+        taken = "(model.status.question !== arguments[0] || model.status.asks !== 'consent')"
         self.wait_act("hold-start")
-        place = self.middle("hold-start")
-        self.browser.press(place)
-        self.wait("document.getElementById('hold-start').classList.contains('held')")
-        on_the_way()
-        self.wait("!document.getElementById('hold-start').classList.contains('held')")
-        self.browser.release(place)
+        question = self.model("model.status.question")
+        end = time.monotonic() + PATIENCE_S
+        while self.wait_model(f"{taken} ? 'taken' : {ready} ? 'ready' : null", question) == "ready":
+            if time.monotonic() > end:
+                raise AssertionError(f"{self.name}: Start was held and did not count; it shows {self.words()}")
+            place = self.middle("hold-start")
+            self.browser.press(place)
+            if self.comes(held, patience_s=1):
+                on_the_way()
+            self.comes(f"!{held}", patience_s=PATIENCE_S)
+            self.browser.release(place)
+            self.comes(OF_MODEL % taken, question, patience_s=2)
+        return question
 
     def place(self, x_m, y_m):
         """Of the map, in pixels."""
         return self.js("""const box = document.querySelector("[data-grid=map]").getBoundingClientRect();
             return [box.left + arguments[0] / 21 * box.width, box.bottom - arguments[1] / 27 * box.height]""", x_m, y_m)
 
-    def start(self):
-        """From a plan that is ready, or was accepted already, to a robot that searches; who holds the controls does."""
+    def set_off(self):
+        """From a plan that is ready, or was accepted already, to consent that has counted; who holds the controls does. The question's number."""
         if self.wait("['accept', 'hold-start'].find((act) => act === document.body.dataset.act)") == "accept":
             self.act("accept", "document.body.dataset.act === 'hold-start'")
-        self.hold_start()
+        return self.hold_start()
+
+    def start(self):
+        """To a robot that searches."""
+        self.set_off()
         self.wait_stage("search")
 
     def judge(self, name):

@@ -149,6 +149,33 @@ int start(ConsoleClient& client, const Status& status) {
   return tell(client.command(Kind::kConsent, status.question), status);
 }
 
+/// Why the controller would refuse that place, in more words than its verdict has.
+Result<void> can_be_placed(ConsoleClient& client, std::size_t agent, const ConsoleOptions& options) {
+  const Result<Json> mission = json_of(client, Document::kMission);
+  if (!mission) {
+    return mission.error();
+  }
+  const Json* const agents = mission.value().member("agents");
+  const Json* const motion = agents != nullptr ? agents->elements.at(agent).member("motion") : nullptr;
+  if (motion == nullptr || motion->text != "reported") {
+    return Error{"the place of " + options.agent + " is known; expected a person whose motion is \"reported\""};
+  }
+  const Json* const map = mission.value().member("map");
+  const auto side_m = [map](std::string_view name) {
+    const Json* const side = map != nullptr ? map->member(name) : nullptr;
+    return side != nullptr && side->is_number() ? side->real : 0.0;
+  };
+  const double width_m = side_m("width_m");
+  const double height_m = side_m("height_m");
+  const double x_m = options.x_m.value_or(0.0);
+  const double y_m = options.y_m.value_or(0.0);
+  if (!(x_m >= 0 && y_m >= 0 && x_m <= width_m && y_m <= height_m)) {
+    return Error{place_text({x_m, y_m}) + " is off the map; expected 0 to " + format("%g", width_m) + " and 0 to " +
+                 format("%g", height_m)};
+  }
+  return {};
+}
+
 int about_agent(ConsoleClient& client, const Status& status, const ConsoleOptions& options,
                 const std::vector<std::string>& names) {
   const Result<std::size_t> agent = agent_called(names, options.agent);
@@ -157,6 +184,9 @@ int about_agent(ConsoleClient& client, const Status& status, const ConsoleOption
   }
   if (options.verb == ConsoleVerb::kFound) {
     return tell(client.command(Kind::kFound, 0, static_cast<std::uint32_t>(agent.value())), status);
+  }
+  if (const Result<void> placed = can_be_placed(client, agent.value(), options); !placed) {
+    return refuse(placed.error());
   }
   console::PoseCommand pose;
   pose.agent = static_cast<std::uint8_t>(agent.value());

@@ -7,7 +7,6 @@
 #include "firmware/tools/dialogue/no_go_ahead.hpp"
 #include "firmware/tools/dialogue/path_place.hpp"
 #include "firmware/tools/dialogue/plan_notice.hpp"
-#include "firmware/tools/dialogue/shown_documents.hpp"
 
 namespace ivo::firmware {
 namespace {
@@ -33,7 +32,7 @@ Dialogue::Dialogue(MissionInputs& inputs, planner::Planner& planner, const Searc
       planners_{&planner, second_.get()},
       views_{RunView{{inputs, planner}, object}, RunView{{inputs, *second_}, object}},
       searched_(planner.cells(), planner.belief()) {
-  preferred_ = planner.belief().has_sub_priors;
+  heeded_.preferred = planner.belief().has_sub_priors;
   console::DocumentShelf& shelf = desk.documents();
   (void)shelf.put(Document::kMission, mission_text(view()));
   (void)shelf.put(Document::kMap, map_bytes(inputs.map));
@@ -55,6 +54,7 @@ Result<void> Dialogue::keep_areas_at(const std::string& path, bool taken_up) {
     return Error{inputs_.file.path + ": has more areas than can be drawn at a console, " +
                  std::to_string(console::kAreaSlots) + "; expected fewer, or no --console"};
   }
+  heeded_.revision = desk_.areas().revision();
   return {};
 }
 
@@ -94,7 +94,7 @@ void Dialogue::take_requests() {
       found.agent = static_cast<std::uint8_t>(request.argument);
       (void)loop_.command(found);
     } else if (step_ == Step::kIdle && loop_.command(OperatorCommand::kPlanAnew)) {
-      preferred_wanted_ = request.kind == Kind::kReplan;
+      to_be_heeded_.preferred = request.kind == Kind::kReplan;
       step_ = Step::kHalting;
     }
   }
@@ -119,7 +119,8 @@ void Dialogue::go_on(const LoopStatus& status) {
     case Step::kHandedOver:
       if (status.plan_number != plan_before_) {
         current_ = 1 - current_;
-        preferred_ = preferred_wanted_ && planners_[current_]->belief().has_sub_priors;
+        heeded_ = to_be_heeded_;
+        heeded_.preferred = heeded_.preferred && planners_[current_]->belief().has_sub_priors;
         along_m_ = {};
         step_ = Step::kIdle;
       }
@@ -138,7 +139,9 @@ void Dialogue::prepare(const LoopStatus& status) {
   Mission& mission = inputs_.file.mission;
   (void)desk_.documents().put(Document::kNotice, {});  // of an earlier try
   agents_before_ = mission.agents;
-  mission.agents = agents_with(mission.agents, desk_.areas(), preferred_wanted_, slots_);
+  const console::AreaBoard board = desk_.areas();
+  to_be_heeded_.revision = board.revision();
+  mission.agents = agents_with(mission.agents, board, to_be_heeded_.preferred, slots_);
   planner::SearchProblem problem = inputs_.problem();
   problem.sub_priors = {};
   if (status.search_started) {
@@ -263,7 +266,7 @@ void Dialogue::lay_down_plan() {
     (void)shelf.put(Document::kPreviousPlan, plan_ready_);
   }
   plan_shown_ = mark;
-  std::string text = plan_text(view(), shown, preferred_);
+  std::string text = plan_text(view(), shown, heeded_);
   if (mark.ready) {
     plan_ready_ = text;
   }
@@ -272,7 +275,7 @@ void Dialogue::lay_down_plan() {
 
 void Dialogue::complete(console::Status& status) const {
   status.preparing = preparing() ? 1 : status.preparing;
-  status.with_preferences = preferred_ ? 1 : 0;
+  status.with_preferences = heeded_.preferred ? 1 : 0;
   status.into_no_go = into_no_go_.value_or(console::Status::kNobody);
   status.searched_mass = std::min(1.0, searched_.mass());
   for (std::size_t m = 1; m < along_m_.size(); ++m) {

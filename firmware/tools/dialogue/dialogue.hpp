@@ -17,6 +17,7 @@
 #include "firmware/mission/searched_map.hpp"
 #include "firmware/tools/dialogue/drawn_areas.hpp"
 #include "firmware/tools/dialogue/plan_maker.hpp"
+#include "firmware/tools/dialogue/shown_documents.hpp"
 #include "firmware/tools/planner_object.hpp"
 #include "firmware/tools/run_documents.hpp"
 
@@ -90,9 +91,9 @@ class Dialogue {
   Instant searched_shown_at_{};
   PlanMaker maker_;
   Step step_ = Step::kIdle;
-  bool made_ = false;  // by the maker, and the loop has not been told
-  bool preferred_wanted_ = false;
-  bool preferred_ = false;  // the current plan heeds preferred areas
+  bool made_ = false;       // by the maker, and the loop has not been told
+  PlanAreas heeded_;        // by the current plan
+  PlanAreas to_be_heeded_;  // by the one that is made
   std::vector<AgentSpec> agents_before_;
   PreferredSlots slots_;
   std::uint32_t plan_before_ = 0;

@@ -134,14 +134,15 @@ std::string searched_bytes(const planner::Cells& cells, const planner::CellSet& 
   return bytes;
 }
 
-std::string plan_text(const PlanView& view, const ShownPlan& shown, bool with_preferences) {
+std::string plan_text(const PlanView& view, const ShownPlan& shown, const PlanAreas& areas) {
   const Mission& mission = view.inputs.file.mission;
   Json agents = Json::list();
   for (std::size_t m = 0; m < mission.agents.size(); ++m) {
     agents.elements.push_back(json_of(shown.plan.paths[m], mission.agents[m]));
   }
   return json_text({{"number", static_cast<std::uint64_t>(shown.number)},
-                    {"with_preferences", with_preferences},
+                    {"with_preferences", areas.preferred},
+                    {"areas_revision", static_cast<std::uint64_t>(areas.revision)},
                     {"done", shown.ready},
                     {"generation", shown.generation},
                     {"generations", shown.generations},

@@ -21,7 +21,12 @@ namespace ivo::firmware {
 [[nodiscard]] std::string probability_bytes(const planner::Planner& planner);
 /// A bit a cell.
 [[nodiscard]] std::string searched_bytes(const planner::Cells& cells, const planner::CellSet& searched);
-[[nodiscard]] std::string plan_text(const PlanView& view, const ShownPlan& shown, bool with_preferences);
+/// Which areas a plan heeds.
+struct PlanAreas {
+  bool preferred = false;      ///< preferred ones too
+  std::uint32_t revision = 0;  ///< of the board as it was then
+};
+[[nodiscard]] std::string plan_text(const PlanView& view, const ShownPlan& shown, const PlanAreas& areas);
 /// With the share of the probability that each covers, of what anybody can observe. Cost: the cells of their extents
 /// times their corners.
 [[nodiscard]] std::string areas_text(const console::AreaBoard& board, const planner::Cells& cells,

@@ -1,14 +1,15 @@
 // The one thing to do next, always at the same place beside Stop; and why it cannot be done.
 import { allow, by_id, on_press, set_attribute, set_text, show } from "./dom.js";
-import { has_controller, into_no_go, is_old, is_operator, no_start_because, stage_of } from "./judge.js";
+import { areas_are_newer, has_controller, into_no_go, is_old, is_operator, no_start_because, stage_of } from "./judge.js";
 import { make_hold } from "./hold.js";
 import { model } from "./model.js";
 import { tell } from "./tell.js";
 import { open_found } from "./search.js";
-import { set_view } from "./view_state.js";
+import { plan_anew, plan_anew_words } from "./asked.js";
+import { set_view, view } from "./view_state.js";
 import { say } from "./words.js";
 
-const kButtons = ["hold-start", "accept", "enough", "found", "clear-fault", "take-control"];
+const kButtons = ["hold-start", "accept", "plan-anew", "enough", "found", "clear-fault", "take-control"];
 const hold = make_hold(by_id("hold-start"), by_id("hold-ring"), () => model.status?.question ?? null, (question) => tell("start", { question }));
 
 /// The id of the button, whether it works, and why not or what it does.
@@ -16,6 +17,7 @@ function next_act(now_ms) {
   const stage = stage_of(model);
   const status = model.status;
   const old = is_old(model, now_ms);
+  if (view.tool !== null && view.tool !== "position") return { id: null, works: false, why: "" };  // what is drawn comes first
   if (model.link === "open" && status && stage !== "wait" && stage !== "search" && stage !== "end" && !is_operator(model)) {
     return { id: "take-control", works: model.hello?.may_operate === true && !asked_already(), why: watch_words() };
   }
@@ -25,9 +27,13 @@ function next_act(now_ms) {
       const works = !old && !status.plan.preparing && Boolean(plan) && plan.number === status.plan.number;
       return status.mode === "planning" ? { id: "enough", works, why: works ? "" : say("enough.not_yet") } : { id: null, works: false, why: "" };
     }
-    case "agree":
-      if (!status.plan.accepted) return accept_act(old);
-      return start_act(now_ms);
+    case "agree": {
+      const led = into_no_go(model);
+      if (led) return { id: "plan-anew", works: !old, why: say("start.no_go", { name: led.name }) };
+      if (status.plan.accepted) return start_act(now_ms);
+      if (areas_are_newer(model) && !status.plan.followed) return { id: "plan-anew", works: !old, why: "" };
+      return { id: "accept", works: !old && status.plan.ready, why: old ? say("start.old") : "" };
+    }
     case "search": return { id: "found", works: !old && has_controller(model), why: "" };
     case "fault": return { id: "clear-fault", works: !old && status.asks === "clearing", why: status.asks === "clearing" ? "" : say("now.fault_wait") };
     case "end": return { id: null, works: false, why: say("act.end") };
@@ -35,15 +41,9 @@ function next_act(now_ms) {
   }
 }
 
-function accept_act(old) {
-  const led = into_no_go(model);
-  const why = old ? say("start.old") : led ? say("start.no_go", { name: led.name }) : "";
-  return { id: "accept", works: why === "" && model.status.plan.ready, why };
-}
-
 function start_act(now_ms) {
   const why = no_start_because(model, now_ms);
-  return { id: "hold-start", works: why === null, why: say(why ?? "start.how", { name: into_no_go(model)?.name ?? "" }) };
+  return { id: "hold-start", works: why === null, why: say(why ?? "start.how") };
 }
 
 function asked_already() {
@@ -71,7 +71,9 @@ export function show_act() {
   if ((id ?? "") !== document.body.dataset.act) swapped_at_ms = performance.now();
   for (const each of kButtons) show(by_id(each), each === id);
   if (id !== null) allow(by_id(id), works);
+  if (id === "plan-anew") set_text(by_id(id), plan_anew_words());
   if (id === "take-control") set_text(by_id(id), say(model.status.operator ? "control.ask" : "control.take"));
+  show(by_id("accept-as-is"), id === "plan-anew" && into_no_go(model) === null && model.status.plan.ready);
   set_text(by_id("act-why"), why);
   set_attribute(by_id("act"), "data-why", why === "" ? "no" : "yes");
   document.body.dataset.act = id ?? "";
@@ -79,10 +81,14 @@ export function show_act() {
 }
 
 on_act("accept", () => tell("accept", { plan: model.status.plan.number }));
+on_press(by_id("accept-as-is"), () => tell("accept", { plan: model.status.plan.number }));
+on_act("plan-anew", plan_anew);
 on_act("enough", () => tell("enough", { plan: model.status.plan.number }));
 on_act("clear-fault", () => tell("clear_fault", { question: model.status.question }));
 on_act("take-control", () => tell("control.request"));
-on_act("found", () => {
+function ask_who_found_it() {
   set_view({ tab: "search" });
   open_found();
-});
+}
+on_act("found", ask_who_found_it);
+on_press(by_id("found-too"), ask_who_found_it);

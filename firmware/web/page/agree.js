@@ -1,7 +1,7 @@
 // What is to be agreed now: where the plan stands, what it asks, and why the robot stands.
-import { by_id, on_press, set_attribute, set_text, show } from "./dom.js";
+import { allow, by_id, on_press, set_attribute, set_text, show } from "./dom.js";
 import { advice_of, fault_words } from "./state_words.js";
-import { agents_of, into_no_go, is_operator, stage_of } from "./judge.js";
+import { agents_of, has_controller, is_operator, stage_of } from "./judge.js";
 import { model } from "./model.js";
 import { show_asked } from "./asked.js";
 import { show_facts } from "./facts.js";
@@ -23,10 +23,17 @@ function show_progress() {
     say("progress.step", { done: number(plan.generation), all: number(plan.generations) }));
 }
 
+function cause_words(status) {
+  if (status?.taken_up) return "taken_up";
+  const cause = status?.pause_cause ?? "none";
+  // A plan that nobody has followed yet is why it stands now, whatever stopped it before.
+  return cause !== "none" && status.plan.ready && !status.plan.followed ? "replan" : cause;
+}
+
 function show_pause() {
   const status = model.status;
   const stands = status?.search?.started && stage_of(model) !== "search" && stage_of(model) !== "end";
-  const cause = status?.pause_cause ?? "none";
+  const cause = cause_words(status);
   const shown = Boolean(stands) && cause !== "none" && stage_of(model) !== "fault";
   show(by_id("pause"), shown);
   if (shown) set_text(by_id("pause-text"), say(`pause.${cause}`));
@@ -51,9 +58,10 @@ export function show_agree() {
     finder: agents_of(model)[model.status?.search?.finder]?.name ?? "",
     number: model.status?.plan?.number ?? "",
     fault: fault_words(model, say),
-    name: into_no_go(model)?.name ?? "",
   };
-  set_text(by_id("now-title"), say(title, values));
+  const news = say(title, values);
+  if (by_id("now-title").textContent !== news) by_id("page-search").scrollTop = 0;
+  set_text(by_id("now-title"), news);
   set_text(by_id("now-text"), say(text, values));
   show_fault_detail(stage);
   show_progress();
@@ -61,6 +69,7 @@ export function show_agree() {
   show_facts(stage === "plan" || stage === "agree");
   show(by_id("again"), stage === "agree" || stage === "search");
   show(by_id("end"), stage !== "end" && stage !== "wait" && is_operator(model));
+  allow(by_id("end-run"), model.link === "open" && has_controller(model));
   show_asked();
 }
 

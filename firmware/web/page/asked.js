@@ -59,6 +59,17 @@ async function replan() {
   if (await tell("replan", { areas_revision: model.status.areas_revision })) set_view({ tab: "search", selected: null, tool: null });
 }
 
+const is_wished = () => areas_of(model).some((area) => area.purpose === "preferred");
+
+/// The plan that fits the areas as they are drawn.
+export function plan_anew() {
+  return is_wished() ? replan() : tell("init");
+}
+
+export function plan_anew_words() {
+  return say(is_wished() ? "again.replan" : "again.anew");
+}
+
 on_press(by_id("replan"), replan);
 on_press(by_id("replan-areas"), replan);
 on_press(by_id("init"), () => tell("init"));

@@ -10,7 +10,7 @@ import { model } from "./model.js";
 import { no_fling } from "./pointer_drag.js";
 import { purpose_of } from "./purpose.js";
 import { set_view, view } from "./view_state.js";
-import { toast } from "./toast.js";
+import { clear_toast, toast } from "./toast.js";
 import { say } from "./words.js";
 
 const kMostCorners = 64;
@@ -52,6 +52,7 @@ async function finish(polygon) {
   clear();
   if (slot === null) return toast(say("areas.full"));
   if (!is_simple(polygon)) return toast(say("areas.crossing"));
+  clear_toast();
   set_view({ tool: null });
   if (await change_area(slot, { ...purpose_of(view.purpose), polygon_m: polygon })) set_view({ selected: slot });
 }
@@ -110,6 +111,8 @@ addEventListener("keydown", (event) => {
 });
 
 export function show_draw() {
+  // Nothing that is drawn now would arrive.
+  if (view.tool !== null && model.link !== "open") view.tool = null;
   if (view.tool !== "polygon" && view.tool !== "rectangle" && (sketch || first_mark)) clear();
   document.body.dataset.tool = view.tool ?? "";
   show(sheet, view.tool !== null);

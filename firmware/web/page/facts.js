@@ -7,6 +7,11 @@ import { metres, percent, say, seconds } from "./words.js";
 
 let drawn_from = [];
 
+/// A plan for what is left is not compared with one for the whole.
+function previous_plan() {
+  return model.status?.search?.started ? null : model.documents.previous_plan;
+}
+
 /// In the areas as they are drawn now: so both plans are measured alike, and one can see what a new area would change.
 function preferred_share(plan, agent) {
   const mine = areas_of(model).filter((area) => area.purpose === "preferred" && area.agent === agent).map((area) => area.polygon_m);
@@ -16,8 +21,9 @@ function preferred_share(plan, agent) {
 
 function rows_of(plan, agents) {
   const rows = [];
-  const row = (id, name, value_of) => rows.push({ id, name, now: value_of(plan), before: value_of(model.documents.previous_plan) });
+  const row = (id, name, value_of) => rows.push({ id, name, now: value_of(plan), before: value_of(previous_plan()) });
   const or_none = (value, words) => (value === null || value === undefined ? "–" : words(value));
+  if (plan.with_preferences) row("est", say("facts.est"), (each) => or_none(each?.score?.expected_sub_prior_time_s, (value) => seconds(value, 1)));
   row("et", say("facts.et"), (each) => or_none(each?.score?.expected_time_s, (value) => seconds(value, 1)));
   agents.forEach((agent, i) => {
     row(`distance-${i}`, say("facts.distance", { name: agent.name }), (each) => or_none(each?.agents?.[i]?.length_m, metres));
@@ -33,7 +39,7 @@ export function show_facts(shown) {
   const plan = model.documents.plan;
   by_id("facts").hidden = !shown || !plan;
   if (!shown || !plan) return;
-  const previous = model.documents.previous_plan;
+  const previous = previous_plan();
   const from = [plan, previous, model.documents.areas, model.documents.mission, document.documentElement.lang];
   if (from.every((each, i) => each === drawn_from[i])) return;
   drawn_from = from;

@@ -60,6 +60,12 @@ export function into_no_go(model) {
   return agents_of(model)[model.status?.plan?.into_no_go ?? -1] ?? null;
 }
 
+/// Areas were drawn, changed or removed since the plan was asked for.
+export function areas_are_newer(model) {
+  const revision = model.documents.plan?.areas_revision;
+  return revision !== undefined && model.status?.areas_revision > revision;
+}
+
 /// Why nobody can start from this screen now: a key of the words, or null.
 export function no_start_because(model, now_ms) {
   const status = model.status;

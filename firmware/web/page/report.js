@@ -14,7 +14,7 @@ function rows_of(report) {
   const row = (name, value) => rows.push([name, value]);
   row(say("report.time"), duration(report?.real_search_time_s ?? model.status.search.time_s));
   const expected_s = report?.plan_score?.expected_time_s ?? model.documents.plan?.score?.expected_time_s;
-  if (expected_s !== undefined) row(say("report.expected"), seconds(expected_s, 1));
+  if (expected_s !== undefined) row(say("report.expected"), duration(expected_s));
   row(say("report.searched"), percent(model.status.search.searched));
   agents_of(model).forEach((agent, i) => {
     const gone_m = report?.agents?.[i]?.distance_m ?? model.status.agents[i]?.moved_m ?? 0;

@@ -8,6 +8,8 @@ import { number, say, say_or } from "./words.js";
 
 const kRefused = ["malformed", "too_large", "out_of_order", "replayed", "too_often", "not_allowed", "not_fresh", "no_controller", "by_controller", "foreign_origin",
   "foreign_host", "not_paired", "wrong_code"];
+const kAnswerWithinMs = 10_000;  // then the server gives them
+let asked_at_ms = null;
 let drawn_screens = "";
 let drawn_details = "";
 
@@ -15,7 +17,10 @@ function show_request() {
   const request = model.status?.request;
   const mine = is_operator(model) && Boolean(request);
   show(by_id("request"), mine);
-  if (mine) set_text(by_id("request-text"), say("request", { name: request.name }));
+  asked_at_ms = mine ? asked_at_ms ?? performance.now() : null;
+  if (!mine) return;
+  set_text(by_id("request-text"), say("request", { name: request.name }));
+  set_text(by_id("request-left"), say("request.left", { left: Math.max(0, Math.ceil((kAnswerWithinMs - (performance.now() - asked_at_ms)) / 1000)) }));
 }
 
 function show_control() {

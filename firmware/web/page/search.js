@@ -1,6 +1,6 @@
 // While they search: how far everybody is, who has found the object, where a person really is.
 import { can_be_placed, is_placed_by_hand } from "./agents.js";
-import { agents_of, done_m, is_operator, is_unseen, stage_of } from "./judge.js";
+import { agents_of, done_m, has_controller, is_operator, is_unseen, stage_of } from "./judge.js";
 import { initial_of, style_of } from "./colours.js";
 import { by_id, make, on_press, set_attribute, set_text, show } from "./dom.js";
 import { model } from "./model.js";
@@ -89,7 +89,9 @@ on_press(by_id("found-cancel"), () => {
 
 export function show_search() {
   const searching = stage_of(model) === "search";
-  if (!searching) choosing = false;
+  const paused = model.status?.search?.started === true && ["agree", "plan"].includes(stage_of(model));
+  if (!searching && !paused) choosing = false;
+  show(by_id("found-too"), paused && model.link === "open" && has_controller(model) && !choosing);
   show(by_id("found-choice"), choosing);
   show_rows();
   keep_awake(searching);

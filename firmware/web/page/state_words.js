@@ -1,6 +1,6 @@
 // What the robot does, and what somebody may do now, in words: which sentence fits the model. The sentences themselves are in
 // words_en.js and words_es.js.
-import { agents_of, has_ended, into_no_go, is_operator, stage_of } from "./judge.js";
+import { agents_of, areas_are_newer, has_ended, into_no_go, is_operator, stage_of } from "./judge.js";
 
 /// A key of the words, what stands in the sentence, and its tone: calm, busy, moving, warn, bad.
 export function state_words(model) {
@@ -24,8 +24,8 @@ export function state_words(model) {
     case "searching": return words("searching", "moving");
     default: break;
   }
-  if (status.search.started) return words(status.pause_cause === "beat_lost" ? "beat_lost" : "paused", "warn");
   if (status.taken_up) return words("taken_up", "warn");
+  if (status.search.started) return words(status.pause_cause === "beat_lost" ? "beat_lost" : "paused", "warn");
   return words(status.plan.accepted ? "ready" : "awaiting", "calm");
 }
 
@@ -60,9 +60,13 @@ export function advice_of(model) {
     default: break;
   }
   const resumed = status.search.started;
-  if (into_no_go(model) !== null) return [resumed ? "now.paused" : "now.no_go", "start.no_go"];
-  if (status.plan.accepted) return [resumed ? "now.paused" : "now.accepted", watching ? "now.watch_start" : resumed ? "now.go_on_text" : "now.accepted_text"];
-  if (resumed && !watching && status.pause_cause !== "replan") return ["now.paused", "now.again_text"];
+  if (into_no_go(model) !== null) return [resumed ? "now.paused" : "now.no_go", watching ? "now.watch_agree" : "now.no_go_text"];
+  if (status.plan.accepted) {
+    const text = watching ? (status.operator ? "now.watch_start" : "now.free_start") : resumed ? "now.go_on_text" : "now.accepted_text";
+    return [resumed ? "now.paused" : "now.accepted", text];
+  }
+  if (resumed && !watching && status.plan.followed) return ["now.paused", "now.again_text"];
+  if (areas_are_newer(model)) return ["now.areas_newer", watching ? "now.watch_agree" : "now.areas_newer_text"];
   const title = status.plan.with_preferences ? "now.agree_with" : "now.agree_free";
   if (watching) return [title, status.operator ? "now.watch_agree" : "now.free_agree"];
   return [title, "now.agree_text"];

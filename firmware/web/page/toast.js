@@ -11,3 +11,8 @@ export function toast(text) {
   clearTimeout(timer);
   timer = setTimeout(() => show(node, false), kStaysMs);
 }
+
+/// What it said is settled.
+export function clear_toast() {
+  show(by_id("toast"), false);
+}

@@ -250,6 +250,7 @@ TEST_F(DialogueTest, AReplanHeedsWhatIsDrawnByNow) {
   }
   EXPECT_EQ(at(json_of(Document::kAreas), "areas").elements.size(), 2U);
   const Json plan = json_of(Document::kPlan);
+  EXPECT_EQ(at(plan, "areas_revision").count, shown().areas_revision);
   const Json& agents = at(plan, "agents");
   ASSERT_EQ(agents.elements.size(), 2U);
   EXPECT_GT(number(at(agents.elements[1], "preferred_share")), 0.0);
