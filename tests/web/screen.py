@@ -165,7 +165,8 @@ class Screen:
 
     def wait_plan_after(self, number):
         """Another plan than that one is ready to be accepted: its making may have been too short to be seen. Its number."""
-        self.wait_model("model.status.plan.number > arguments[0] && model.status.plan.ready && model.documents.plan.number === model.status.plan.number", number)
+        self.wait_model("model.status.plan.number > arguments[0] && model.status.plan.ready && "
+                        "model.documents.plan.number === model.status.plan.number", number)
         self.wait_act("accept")
         return self.plan_number()
 
