@@ -23,8 +23,8 @@ function rows_of(plan, agents) {
   const rows = [];
   const row = (id, name, value_of) => rows.push({ id, name, now: value_of(plan), before: value_of(previous_plan()) });
   const or_none = (value, words) => (value === null || value === undefined ? "–" : words(value));
-  if (plan.with_preferences) row("est", say("facts.est"), (each) => or_none(each?.score?.expected_sub_prior_time_s, (value) => seconds(value, 1)));
   row("et", say("facts.et"), (each) => or_none(each?.score?.expected_time_s, (value) => seconds(value, 1)));
+  if (plan.with_preferences) row("est", say("facts.est"), (each) => or_none(each?.score?.expected_sub_prior_time_s, (value) => seconds(value, 1)));
   agents.forEach((agent, i) => {
     row(`distance-${i}`, say("facts.distance", { name: agent.name }), (each) => or_none(each?.agents?.[i]?.length_m, metres));
     if (agent.kind !== "person") return;

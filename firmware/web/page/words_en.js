@@ -168,7 +168,7 @@ export const words = {
   "facts.now": "This plan",
   "facts.before": "Before",
   "facts.et": "Expected time to find it",
-  "facts.est": "Expected time, as you wish to search",
+  "facts.est": "Expected time by your wishes",
   "facts.distance": "{name}'s distance",
   "facts.preferred": "{name}'s path in preferred areas",
   "facts.gap": "Gap to the lower bound",

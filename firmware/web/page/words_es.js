@@ -168,7 +168,7 @@ export const words = {
   "facts.now": "Este plan",
   "facts.before": "Antes",
   "facts.et": "Tiempo esperado hasta encontrarlo",
-  "facts.est": "Tiempo esperado, según lo que prefieres",
+  "facts.est": "Tiempo esperado según tus deseos",
   "facts.distance": "Distancia de {name}",
   "facts.preferred": "Camino de {name} en zonas preferidas",
   "facts.gap": "Distancia a la cota inferior",
