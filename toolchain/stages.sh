@@ -38,6 +38,11 @@ finish() {
   printf '\n%d passed, %d failed, %d skipped\n' "$passed" "$failed" "$skipped_in_all"
 }
 
+# What the tests that failed said, of ctest's output: the list of those that were skipped is all that stands at its end.
+show_failures() {
+  awk '/^ *[0-9]+\/[0-9]+ Test +#/ { shown = /\*\*\*(Failed|Timeout|Exception|Not Run)|Subprocess/ ? 80 : 0 } shown-- > 0' "$1" 2>/dev/null || true
+}
+
 run_stages() {
   local number=0 began status before tenths
   for stage in "$@"; do
@@ -60,6 +65,7 @@ run_stages() {
       # A stage without tests that fails is a failure too: the sum must not read as success.
       [ "$failed" -gt "$before" ] || failed=$((failed + 1))
       printf '\nstage %s failed; the end of %s:\n' "$stage" "${logs#"$root"/}/$stage.log"
+      show_failures "$logs/$stage.log"
       tail -n 40 "$logs/$stage.log" 2>/dev/null || true
       finish
       exit 1

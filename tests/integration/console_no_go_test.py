@@ -2,7 +2,6 @@
 """Areas that are closed after a plan was made: no consent counts for a way into one, whoever gives it and however."""
 
 import os
-import pty
 import select
 import subprocess
 import tempfile
@@ -11,6 +10,7 @@ import unittest
 import console_client as console
 from console_client import Client
 from mission_files import IVO, MISSION, events, write_mission
+from terminals import open_terminal
 
 # Of the plaza of 12 x 12 m where everybody starts at its lower edge: all that lies above.
 ABOVE = [(0.2, 4), (11.8, 4), (11.8, 11.8), (0.2, 11.8)]
@@ -30,7 +30,7 @@ class NoGo(unittest.TestCase):
         path = os.path.join(self.folder, "console")
         command = [IVO, "run", self.mission, "--console", path, "--out", self.out, *more]
         if terminal:
-            self.terminal, theirs = pty.openpty()
+            self.terminal, theirs = open_terminal()
             self.addCleanup(os.close, self.terminal)
             process = subprocess.Popen(command, stdin=theirs, stdout=theirs, stderr=theirs)
             os.close(theirs)

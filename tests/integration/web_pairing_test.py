@@ -97,16 +97,18 @@ class Pairing(WebServerTest):
     def test_who_is_forgotten_is_hung_up_on_and_the_others_are_not(self):
         self.start()
         ana, luis = self.pair("Ana"), self.pair("Luis")
-        gone, stays = self.page(ana), self.page(luis)
         self.assertRegex(self.paired(), r"^[0-9a-f]{8} operator Ana\n[0-9a-f]{8} operator Luis\n$")
         digits = self.paired().split()[0]
+        gone, stays = self.page(ana), self.page(luis)
+        stays.status(lambda status: len(status["screens"]) == 2)
         done = subprocess.run(self.options("--forget", digits), capture_output=True, text=True, check=True)
         self.assertEqual(done.stdout, f"forgotten: {digits} operator Ana\n")
+        # Who is not read is silent: at once.
+        stays.status(lambda status: [each["name"] for each in status["screens"]] == ["Luis"])
         self.line(r"screen \d+, Ana: no longer paired")
         with self.assertRaises(ConnectionError):
             gone.wait_for(lambda message: False)
         self.assertEqual(self.get("/areas.geojson", ana).status, 403)
-        stays.status(lambda status: [each["name"] for each in status["screens"]] == ["Luis"])
         done = subprocess.run(self.options("--forget", digits), capture_output=True, text=True, check=False)
         self.assertEqual((done.returncode, done.stderr),
                          (2, f'ivo-console: --forget: "{digits}" is nobody\'s; expected the 8 digits that ivo-console --paired shows\n'))
