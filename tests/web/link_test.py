@@ -107,6 +107,7 @@ class Link(ConsoleTest):
         screens = [ana, *others]
         for screen in screens:
             screen.press_details()
+            screen.wait("document.getElementById('detail-plan')")
 
         def same():
             return len({json.dumps(screen.model(SHOWN), sort_keys=True) for screen in screens}) == 1
