@@ -12,6 +12,8 @@ import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "integration"))
 
+from selenium.common.exceptions import JavascriptException
+
 from browser import Browser
 from mission_files import BUILD_DIR, COURTYARD, IVO, SOURCE_DIR
 from screen import Screen
@@ -103,7 +105,10 @@ class ConsoleTest(unittest.TestCase):
     def until(self, true, what="it"):
         end = time.monotonic() + PATIENCE_S
         while time.monotonic() < end:
-            found = true()
+            try:
+                found = true()
+            except JavascriptException:
+                found = None  # an element that is not there yet
             if found:
                 return found
             time.sleep(0.02)
