@@ -17,19 +17,10 @@ class Areas(ConsoleTest):
         super().setUp()
         self.begin()
 
-    def screen(self, *args, **keys):
-        screen = super().screen(*args, **keys)
-        screen.take_controls()
-        screen.wait_act("accept")
+    def operator(self, *args):
+        screen = super().operator(*args)
         screen.press("tab-areas")
         return screen
-
-    def put(self, screen, purpose="prefer-1", **box):
-        screen.press(f"purpose-{purpose}")
-        screen.press("area-numbers")
-        for name, value in {**RECTANGLE, **box}.items():
-            screen.type(f"form-{name}", str(value))
-        screen.keys("form-height", Keys.ENTER)
 
     def box(self, screen):
         """Of the area that is selected, as its form has it."""
@@ -43,7 +34,7 @@ class Areas(ConsoleTest):
             return [box.left + box.width / 2, box.top + box.height / 2]""", number)
 
     def moves(self, screen):
-        self.put(screen)
+        screen.put_area(**RECTANGLE)
         screen.wait("document.querySelector('.area[data-slot=\"0\"]') && document.querySelectorAll('.handle').length === 4")
         self.wait_box(screen, 5, 18, 6, 4)
         screen.browser.drag(screen.place(8, 20), screen.place(10, 21))
@@ -63,14 +54,14 @@ class Areas(ConsoleTest):
         screen.wait("document.querySelector('.area[data-slot=\"0\"]')")
 
     def test_by_finger(self):
-        self.moves(self.screen("Ana's tablet", "tablet"))
+        self.moves(self.operator("Ana's tablet", "tablet"))
 
     def test_by_mouse(self):
-        self.moves(self.screen("Ana's desk", "desk"))
+        self.moves(self.operator("Ana's desk", "desk"))
 
     def test_a_file_that_was_loaded_is_undone_in_one_step(self):
-        screen = self.screen("Ana's desk", "desk")
-        self.put(screen)
+        screen = self.operator("Ana's desk", "desk")
+        screen.put_area(**RECTANGLE)
         screen.wait("document.querySelector('.area[data-slot=\"0\"]')")
         box = [[2, 2], [6, 2], [6, 5], [2, 5], [2, 2]]
         path = os.path.join(self.folder, "areas.geojson")
@@ -86,7 +77,7 @@ class Areas(ConsoleTest):
         screen.wait("document.querySelectorAll('.area').length === 1")
 
     def test_by_keyboard_alone(self):
-        screen = self.screen("Ana's desk", "desk")
+        screen = self.operator("Ana's desk", "desk")
         screen.keys("area-numbers", Keys.ENTER)
         screen.wait("document.activeElement.id === 'form-x'")
         for name, value in {**RECTANGLE, "width": 40}.items():
@@ -109,7 +100,7 @@ class Areas(ConsoleTest):
         screen.wait("document.getElementById('agent-1').getBoundingClientRect().top < arguments[0] - 5", before)
 
     def test_a_border_that_crosses_itself_is_no_area(self):
-        screen = self.screen("Ana's desk", "desk")
+        screen = self.operator("Ana's desk", "desk")
         screen.press("draw-polygon")
         screen.wait("document.body.dataset.tool === 'polygon'")
         for place in ((5, 18), (11, 22), (11, 18), (5, 22)):
@@ -121,10 +112,10 @@ class Areas(ConsoleTest):
         screen.wait("document.body.dataset.tool === ''")
 
     def test_who_watches_sees_them_at_once_and_changes_nothing(self):
-        ana = self.screen("Ana's desk", "desk")
-        luis = ConsoleTest.screen(self, "Luis's phone", "phone")
-        self.put(ana)
-        self.put(ana, "no_go-", x=1, y=1, width=2, height=3)
+        ana = self.operator("Ana's desk", "desk")
+        luis = self.screen("Luis's phone", "phone")
+        ana.put_area(**RECTANGLE)
+        ana.put_area("no_go-", x=1, y=1, width=2, height=3)
         luis.wait("document.querySelectorAll('.area').length === 2")
         luis.press("tab-areas")
         luis.wait("!document.getElementById('areas-locked').hidden")

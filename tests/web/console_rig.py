@@ -133,6 +133,13 @@ class ConsoleTest(unittest.TestCase):
             screen.pair(self.new_code())
         return screen
 
+    def operator(self, name="Ana's tablet", shape="desk"):
+        """A screen that holds the controls, over a plan that can be accepted."""
+        screen = self.screen(name, shape)
+        screen.take_controls()
+        screen.wait_act("accept")
+        return screen
+
     def token(self, role="operator", name="script"):
         done = subprocess.run([CONSOLE, "--state", self.state, "--new-token", name, "--role", role], capture_output=True, text=True, check=True)
         return done.stdout.strip()

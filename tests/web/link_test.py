@@ -21,9 +21,7 @@ class Link(ConsoleTest):
     def setUp(self):
         super().setUp()
         self.begin(operator_timeout_s=SHIPPED_TIMEOUT_S)
-        self.ana = self.screen("Ana's tablet", "tablet")
-        self.ana.take_controls()
-        self.ana.wait_act("accept")
+        self.ana = self.operator("Ana's tablet", "tablet")
 
     def modes(self):
         return [(each["t_s"], each["mode"]) for each in self.events() if each["event"] == "mode"]

@@ -5,25 +5,17 @@ import unittest
 
 from console_rig import ConsoleTest
 
-WAYPOINTS = "const { model } = await import('/model.js'); done(model.documents.plan.agents[0].waypoints_m)"
-
 
 class NoGo(ConsoleTest):
     def setUp(self):
         super().setUp()
         self.begin()
-        self.ana = self.screen("Ana's desk", "desk")
-        self.ana.take_controls()
-        self.ana.wait_act("accept")
+        self.ana = self.operator("Ana's desk")
 
     def close_the_end_of_the_robots_way(self):
-        x_m, y_m = self.ana.browser.driver.execute_async_script(f"const done = arguments[0]; (async () => {{ {WAYPOINTS} }})()")[-1]
+        x_m, y_m = self.ana.model("model.documents.plan.agents[0].waypoints_m")[-1]
         self.ana.press("tab-areas")
-        self.ana.press("purpose-no_go-")
-        self.ana.press("area-numbers")
-        for name, value in {"x": x_m - 0.3, "y": y_m - 0.3, "width": 0.6, "height": 0.6}.items():
-            self.ana.type(f"form-{name}", f"{value:.2f}")
-        self.ana.press("form-save")
+        self.ana.put_area("no_go-", x=x_m - 0.3, y=y_m - 0.3, width=0.6, height=0.6)
         self.ana.wait("document.querySelector('.area[data-slot=\"0\"]')")
         self.ana.press("tab-search")
 

@@ -20,14 +20,9 @@ class OtherMission(ConsoleTest):
     def setUp(self):
         super().setUp()
         self.begin()
-        self.ana = self.screen("Ana's desk", "desk")
-        self.ana.take_controls()
-        self.ana.wait_act("accept")
+        self.ana = self.operator("Ana's desk")
         self.ana.press("tab-areas")
-        self.ana.press("area-numbers")
-        for name, value in {"x": 5, "y": 18, "width": 6, "height": 4}.items():
-            self.ana.type(f"form-{name}", str(value))
-        self.ana.press("form-save")
+        self.ana.put_area(x=5, y=18, width=6, height=4)
         self.ana.wait("document.querySelector('.area')")
         self.pixel = self.colours()
 

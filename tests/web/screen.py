@@ -153,6 +153,14 @@ class Screen:
                 time.sleep(0.05)
         raise AssertionError(f"{self.name}: {name} was pressed and {condition} did not come; it shows {self.words()}")
 
+    def put_area(self, purpose="prefer-1", **box):
+        """By numbers: x, y, width and height."""
+        self.press(f"purpose-{purpose}")
+        self.press("area-numbers")
+        for name, value in box.items():
+            self.type(f"form-{name}", f"{value:g}")
+        self.press("form-save")
+
     def act(self, name, until):
         self.wait_act(name)
         self.press_until(name, until)

@@ -75,7 +75,6 @@ export function no_start_because(model, now_ms) {
   if (!is_operator(model)) return "start.not_operator";
   if (status.stop_held) return "start.stop_held";
   if (status.asks !== "consent") return "start.not_asked";
-  if (into_no_go(model) !== null) return "start.no_go";
   if (!status.plan.accepted) return "start.not_accepted";
   if (!status.start_fresh) return "start.not_fresh";
   return null;
